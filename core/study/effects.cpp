@@ -12,12 +12,14 @@
 namespace dust::study {
 namespace {
 
-/// An effect below this many standard errors may be noise.
-constexpr double k_clear = 2.0;
+/// Values nearer to each other than this, over their size, are the same.
+constexpr double k_rounding = 1e-12;
 
 struct Sum {
   double sum = 0.0;
   std::size_t count = 0;
+  std::size_t unsteady = 0;
+  std::map<std::uint64_t, double> by_seed;
   [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
 };
 
@@ -64,6 +66,8 @@ std::vector<LevelValues> values_of_levels(const Spec& spec, const Results& resul
     Sum& sum = level.by_others[others];
     sum.sum += *value;
     ++sum.count;
+    sum.by_seed[point.seed] = *value;
+    if (is_unsteady(results.outcomes[n].outputs[output])) ++sum.unsteady;
   }
   return levels;
 }
@@ -88,7 +92,7 @@ std::set<Others> common_to(const std::vector<LevelValues>& levels) {
 
 /// The mean of a level over these combinations, each counted once.
 void take_mean(const LevelValues& level, const std::set<Others>& over,
-               const std::optional<double>& noise, LevelMean& mean) {
+               const std::optional<Noise>& noise, LevelMean& mean) {
   if (over.empty()) return;
   const auto n = static_cast<double>(over.size());
   double variance = 0.0;
@@ -98,15 +102,16 @@ void take_mean(const LevelValues& level, const std::set<Others>& over,
     mean.mean += sum.mean() / n;
     variance += 1.0 / static_cast<double>(sum.count);
     mean.points += sum.count;
+    mean.unsteady += sum.unsteady;
   }
-  if (noise) mean.error = *noise * std::sqrt(variance) / n;
+  if (noise && mean.unsteady == 0) mean.error = noise->deviation * std::sqrt(variance) / n;
 }
 
 /// Levels at which anything finished, each over the same combinations of the other inputs: else a
 /// level at which the heavy ones failed would look light. Of a sample, whose levels are many, those
 /// levels are kept that have them all.
 std::vector<LevelMean> level_means(std::vector<LevelValues> levels, bool is_scattered,
-                                   const std::optional<double>& noise) {
+                                   const std::optional<Noise>& noise) {
   std::erase_if(levels, [](const LevelValues& l) { return l.by_others.empty(); });
   if (is_scattered) {
     const std::size_t all = combinations(levels).size();
@@ -121,44 +126,88 @@ std::vector<LevelMean> level_means(std::vector<LevelValues> levels, bool is_scat
   return means;
 }
 
-/// Standard error of a mean by the scatter of what it is over; negative below three.
-double scatter_of_mean(const std::vector<double>& values) {
-  if (values.size() < 3) return -1.0;
-  const auto n = static_cast<double>(values.size());
-  double mean = 0.0;
-  for (const double v : values) mean += v / n;
-  double squares = 0.0;
-  for (const double v : values) squares += (v - mean) * (v - mean);
-  return std::sqrt(squares / (n * (n - 1.0)));
-}
-
 struct Change {
   double size = 0.0;
   double error = -1.0;
+  double freedom = k_free;
   Coverage coverage;
+  std::vector<double> of_others;  ///< one for each combination of the other inputs
 };
 
-/// From one level of an axis to another, over the combinations of the other inputs that both have:
-/// its error by noise, or else by its scatter over them.
+/// The change of every seed, as the mean over the combinations of the other inputs; nothing unless
+/// both levels have the same two seeds or more at each of them.
+std::vector<double> changes_by_seed(const LevelValues& from, const LevelValues& to) {
+  std::map<std::uint64_t, std::vector<double>> changes;
+  std::size_t combinations = 0;
+  for (const auto& [others, before] : from.by_others) {
+    const auto there = to.by_others.find(others);
+    if (there == to.by_others.end()) continue;
+    const Sum& after = there->second;
+    if (before.by_seed.size() != before.count || after.by_seed.size() != after.count) return {};
+    ++combinations;
+    for (const auto& [seed, value] : before.by_seed) {
+      const auto same = after.by_seed.find(seed);
+      if (same == after.by_seed.end()) return {};
+      changes[seed].push_back(same->second - value);
+    }
+    if (after.count != before.count || changes.size() != before.count) return {};
+  }
+  std::vector<double> means;
+  if (changes.size() < 2) return means;
+  for (const auto& [seed, values] : changes) {
+    if (values.size() != combinations) return {};
+    double mean = 0.0;
+    for (const double v : values) mean += v / static_cast<double>(combinations);
+    means.push_back(mean);
+  }
+  return means;
+}
+
+/// Whether they are the same but for rounding. Counts are, by chance: that tells no error of 0.
+bool are_equal(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low <= k_rounding * std::max(std::abs(*low), std::abs(*high));
+}
+
+/// The error of a change: by what it is for each seed, which both levels begin with and which they
+/// share a part of their noise by; else by noise of single runs, `variance` of these; else by its
+/// scatter over the other inputs, of three or more.
+void take_error(const std::vector<double>& by_seed, const std::optional<Noise>& noise,
+                double variance, Change& change) {
+  const auto n = static_cast<double>(change.of_others.size());
+  if (by_seed.size() > 1 && !are_equal(by_seed)) {
+    change.error = error_of_mean(by_seed);
+    change.freedom = static_cast<double>(by_seed.size() - 1);
+  } else if (noise) {
+    change.error = noise->deviation * std::sqrt(variance) / n;
+    change.freedom = noise->freedom;
+  } else if (change.of_others.size() > 2) {
+    change.error = error_of_mean(change.of_others);
+    change.freedom = n - 1.0;
+  }
+  // How far a mean still drifts no scatter knows.
+  if (change.coverage.unsteady > 0) change.error = -1.0;
+}
+
+/// From one level of an axis to another, over the combinations of the other inputs that both have.
 Change change_between(const LevelValues& from, const LevelValues& to,
-                      const std::optional<double>& noise) {
+                      const std::optional<Noise>& noise) {
   Change change;
-  std::vector<double> changes;
   double variance = 0.0;
   for (const auto& [others, before] : from.by_others) {
     const auto there = to.by_others.find(others);
     if (there == to.by_others.end()) continue;
     const Sum& after = there->second;
-    changes.push_back(after.mean() - before.mean());
+    change.of_others.push_back(after.mean() - before.mean());
     variance += 1.0 / static_cast<double>(before.count) + 1.0 / static_cast<double>(after.count);
     change.coverage.used += before.count + after.count;
+    change.coverage.unsteady += before.unsteady + after.unsteady;
   }
   change.coverage.planned = from.planned + to.planned;
   change.coverage.left_out = from.known() + to.known() - change.coverage.used;
-  if (changes.empty()) return change;
-  const auto n = static_cast<double>(changes.size());
-  for (const double c : changes) change.size += c / n;
-  change.error = noise ? *noise * std::sqrt(variance) / n : scatter_of_mean(changes);
+  const auto n = static_cast<double>(change.of_others.size());
+  for (const double c : change.of_others) change.size += c / n;
+  take_error(changes_by_seed(from, to), noise, variance, change);
   return change;
 }
 
@@ -188,10 +237,11 @@ void fit_line(const std::vector<LevelMean>& levels, MainEffect& effect) {
     rest += r * r;
   }
   effect.error = std::sqrt(rest / (n - 2.0) / xx) * range;
+  effect.freedom = n - 2.0;
 }
 
-/// The points at which all these inputs are held, with what came of them; of a point its levels and
-/// inputs alone.
+/// The points at which all these inputs are held, with what came of them; of a point its levels,
+/// inputs and seed alone.
 struct PointsAt {
   Plan plan;
   std::vector<Outcome> outcomes;
@@ -207,6 +257,7 @@ struct PointsAt {
       Point& here = plan.points.emplace_back();
       here.inputs = point.inputs;
       here.levels = point.levels;
+      here.seed = point.seed;
       outcomes.push_back(results.outcomes[n]);
     }
   }
@@ -226,37 +277,14 @@ std::string amount_text(double value, double error, const std::string& unit) {
   return unit.empty() || unit == "1" ? text : text + " " + unit;
 }
 
-std::optional<double> noise_of(const Results& results, std::size_t output) {
-  std::map<std::vector<std::size_t>, std::vector<double>> groups;
-  double squares = 0.0;
-  std::size_t reported = 0, unknown = 0;
-  for (std::size_t n = 0; n < results.plan.points.size(); ++n) {
-    const auto value = value_of(results, n, output);
-    if (!value) continue;
-    groups[results.plan.points[n].levels].push_back(*value);
-    const double error = results.outcomes[n].outputs[output].error;
-    if (error < 0.0) {
-      ++unknown;
-      continue;
-    }
-    squares += error * error;
-    ++reported;
-  }
-  double scatter = 0.0;
-  std::size_t freedom = 0;
-  for (const auto& [levels, values] : groups) {
-    double mean = 0.0;
-    for (const double v : values) mean += v / static_cast<double>(values.size());
-    for (const double v : values) scatter += (v - mean) * (v - mean);
-    freedom += values.size() - 1;
-  }
-  if (freedom > 0) return std::sqrt(scatter / static_cast<double>(freedom));
-  // The errors of some points say nothing of the others: where a run has not settled, least of all.
-  if (reported > 0 && unknown == 0) return std::sqrt(squares / static_cast<double>(reported));
-  return std::nullopt;
-}
-
 namespace {
+
+void take_change(const Change& change, MainEffect& effect) {
+  effect.change = change.size;
+  effect.error = change.error;
+  effect.freedom = change.freedom;
+  effect.coverage = change.coverage;
+}
 
 /// Of a scattered input a line through its levels; of any other the change from its first level to
 /// its last. Nothing where fewer than two levels finished.
@@ -283,17 +311,18 @@ std::optional<MainEffect> effect_of(const Spec& spec, const Results& results, st
       effect.coverage.planned += l.planned;
       known += l.known();
     }
-    for (const LevelMean& l : effect.levels) effect.coverage.used += l.points;
+    for (const LevelMean& l : effect.levels) {
+      effect.coverage.used += l.points;
+      effect.coverage.unsteady += l.unsteady;
+    }
     effect.coverage.left_out = known - effect.coverage.used;
+    if (effect.coverage.unsteady > 0) effect.error = -1.0;
     return effect;
   }
   const auto has_value = [](const LevelValues& l) { return !l.by_others.empty(); };
   const auto first = std::find_if(values.begin(), values.end(), has_value);
   const auto last = std::find_if(values.rbegin(), values.rend(), has_value);
-  const Change change = change_between(*first, *last, noise);
-  effect.change = change.size;
-  effect.error = change.error;
-  effect.coverage = change.coverage;
+  take_change(change_between(*first, *last, noise), effect);
   // Ends at which nothing finished are missing, too.
   for (auto l = values.begin(); l != first; ++l) effect.coverage.planned += l->planned;
   for (auto l = values.rbegin(); l != last; ++l) effect.coverage.planned += l->planned;
@@ -312,6 +341,17 @@ std::string coverage_text(const Coverage& coverage) {
             " left out: nothing finished to compare them with";
   }
   return text;
+}
+
+std::string unsteady_text(const Coverage& coverage) {
+  if (coverage.unsteady == 0) return {};
+  return std::to_string(coverage.unsteady) + " of " + std::to_string(coverage.used) +
+         " points not steady";
+}
+
+bool is_clear(const MainEffect& effect) {
+  return effect.error >= 0.0 &&
+         std::abs(effect.change) > clear_limit(effect.freedom) * effect.error;
 }
 
 std::vector<MainEffect> main_effects(const Spec& spec, const Results& results) {
@@ -355,33 +395,36 @@ std::optional<MainEffect> effect_expected(const Expectation& e, const Spec& spec
   const auto from = level(e.from);
   const auto to = level(e.to);
   if (from == levels.end() || to == levels.end()) return std::nullopt;
-  const Change change = change_between(*from, *to, noise_of(results, effect.output));
-  effect.change = change.size;
-  effect.error = change.error;
-  effect.coverage = change.coverage;
+  take_change(change_between(*from, *to, noise_of(results, effect.output)), effect);
   return effect;
 }
 
 /// What the sign of a change says about the one that was expected.
-void assess_change(const std::string& then, const std::string& size, Verdict& verdict) {
+void assess_change(const std::string& then, const MainEffect& effect, const std::string& size,
+                   Verdict& verdict) {
   const double wanted = then == "rises" ? 1.0 : -1.0;
-  if (verdict.change == 0.0) {
+  verdict.kind = Verdict::Kind::unresolved;
+  if (effect.coverage.unsteady > 0) {
+    verdict.text = "open: " + unsteady_text(effect.coverage) + ": " + size;
+    return;
+  }
+  if (effect.change == 0.0) {
     // Both say the same to the last digit: as a rule both say nothing, no grain has come so far.
-    verdict.kind = Verdict::Kind::unresolved;
     verdict.text = "no change: " + size;
     return;
   }
-  if (verdict.error >= 0.0 && std::abs(verdict.change) <= k_clear * verdict.error) {
-    verdict.kind = Verdict::Kind::unresolved;
+  if (effect.error >= 0.0 && !is_clear(effect)) {
     verdict.text = "not told from noise: " + size;
-  } else if (wanted * verdict.change > 0.0) {
-    verdict.kind = Verdict::Kind::as_expected;
-    verdict.text = "as expected: " + size;
-  } else {
-    verdict.kind = Verdict::Kind::against;
-    verdict.text = "against the expectation: " + size;
+    const double limit = clear_limit(effect.freedom);
+    if (limit > clear_limit(k_free)) {
+      verdict.text += ", of so few values " + short_number(limit) + " times the error tells";
+    }
+    return;
   }
-  if (verdict.error < 0.0) verdict.text += " (no error is known)";
+  const bool is_good = wanted * effect.change > 0.0;
+  verdict.kind = is_good ? Verdict::Kind::as_expected : Verdict::Kind::against;
+  verdict.text = (is_good ? "as expected: " : "against the expectation: ") + size;
+  if (effect.error < 0.0) verdict.text += " (no error is known)";
 }
 
 }  // namespace
@@ -401,7 +444,7 @@ Verdict assess(const Expectation& e, const Spec& spec, const Results& all) {
   verdict.change = found->change;
   verdict.error = found->error;
   const std::string unit = results.plan.outputs[found->output].unit;
-  assess_change(e.then, amount_text(verdict.change, verdict.error, unit), verdict);
+  assess_change(e.then, *found, amount_text(verdict.change, verdict.error, unit), verdict);
   if (!coverage.empty()) verdict.text += " (" + coverage + ")";
   return verdict;
 }

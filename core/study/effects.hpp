@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "study/noise.hpp"
 #include "study/spec/spec.hpp"
 #include "study/table.hpp"
 
@@ -16,9 +17,10 @@ struct LevelMean {
   std::string label;
   double input = 0.0;  ///< of numbers, in the unit of the column
   double mean = 0.0;
-  double error = -1.0;     ///< standard error of the mean by noise, negative: not known
-  std::size_t points = 0;  ///< none: the levels have no combination in common
-  std::size_t level = 0;   ///< of the axis
+  double error = -1.0;       ///< standard error of the mean by noise, negative: not known
+  std::size_t points = 0;    ///< none: the levels have no combination in common
+  std::size_t unsteady = 0;  ///< of the points
+  std::size_t level = 0;     ///< of the axis
 };
 
 /// What a comparison is over, in runs.
@@ -26,10 +28,14 @@ struct Coverage {
   std::size_t planned = 0;   ///< at the levels that are compared
   std::size_t used = 0;      ///< with a value on either side
   std::size_t left_out = 0;  ///< with a value, but none on the other side to compare it with
+  std::size_t unsteady = 0;  ///< of those used
 };
 
 /// "2 of 8 points are missing, 2 left out: ..."; nothing where all are there.
 std::string coverage_text(const Coverage& coverage);
+
+/// "2 of 4 points not steady"; nothing where all are.
+std::string unsteady_text(const Coverage& coverage);
 
 /// What one input does to one output, whatever the others are.
 struct MainEffect {
@@ -40,16 +46,17 @@ struct MainEffect {
   /// From the first to the last level (of a line, if scattered): the mean of the changes at each
   /// combination of the other inputs that finished at both.
   double change = 0.0;
-  /// Standard error of the change, negative: not known. Where that of the levels is not, by the
+  /// Standard error of the change, negative: not known. Of replicates with the same seeds at both
+  /// levels by the scatter of their changes, else by noise_of. Where that is not known, by the
   /// scatter of the change over what else is varied, of three or more: it holds, besides noise, how
-  /// far the effect hangs on the other inputs.
+  /// far the effect hangs on the other inputs. Where points are not steady it is not known.
   double error = -1.0;
+  double freedom = k_free;  ///< degrees of freedom of the error
   Coverage coverage;
 };
 
-/// Noise of one run's output [unit of the output]: scatter of the replicates of a point, pooled
-/// over all points; without replicates the standard errors the sensors tell; nothing without both.
-std::optional<double> noise_of(const Results& results, std::size_t output);
+/// Whether the change is told from noise, by clear_limit.
+bool is_clear(const MainEffect& effect);
 
 /// Every input's effect on every output; inputs with fewer than two levels that finished are left
 /// out.
@@ -71,7 +78,7 @@ struct Verdict {
 /// all.
 std::string place_text(const Expectation& expectation);
 
-/// An effect is told from noise when it exceeds twice its standard error.
+/// By the sign of what is_clear; open where points are not steady.
 Verdict assess(const Expectation& expectation, const Spec& spec, const Results& results);
 
 }  // namespace dust::study

@@ -50,6 +50,7 @@ void take_off(const std::map<std::string, Figure>& figures, const OutputColumn& 
   output.error = output.error >= 0.0 && off->error >= 0.0
                      ? std::hypot(output.error, column.factor * off->error)
                      : -1.0;
+  if (output.no_error != k_not_steady && !off->no_error.empty()) output.no_error = off->no_error;
 }
 
 }  // namespace
@@ -104,6 +105,7 @@ Outcome PointStore::read(const Point& point, const std::vector<OutputColumn>& co
       if (const auto at = figure_at(figures, column.quantity, column.zero_beside)) {
         output.value = column.factor * at->value;
         if (at->error >= 0.0) output.error = column.factor * at->error;
+        output.no_error = at->no_error;
       }
       if (!column.minus.empty()) take_off(figures, column, output);
       outcome.outputs.push_back(output);

@@ -12,10 +12,14 @@ namespace dust::study {
 
 enum class Status { waiting, finished, failed };
 
+/// Why a figure that has not settled has no error, as summary.json says it.
+constexpr const char* k_not_steady = "not steady";
+
 /// A measured value; nothing where the run did not tell it.
 struct OutputValue {
   std::optional<double> value;
-  double error = -1.0;  ///< one standard error, negative: none
+  double error = -1.0;        ///< one standard error, negative: none
+  std::string no_error = {};  ///< why there is none: "few grains", "not steady"; "" = not said
 };
 
 /// What is known of a point.

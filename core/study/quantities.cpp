@@ -123,7 +123,7 @@ std::vector<double> diameters_of(const scenario::Setup& setup, const registry::R
 void collect(const nlohmann::json& node, const std::string& path,
              std::map<std::string, Figure>& figures) {
   if (node.is_number()) {
-    figures[path] = {node.get<double>(), -1.0, {}};
+    figures[path] = {node.get<double>(), -1.0, {}, {}};
   } else if (node.is_object()) {
     for (const auto& item : node.items()) {
       collect(item.value(), path.empty() ? item.key() : path + "." + item.key(), figures);
@@ -223,9 +223,12 @@ std::map<std::string, Figure> read_figures(const std::filesystem::path& summary)
     for (const auto& one : of.items()) {
       const nlohmann::json& f = one.value();
       if (!f.is_object() || !f.contains("value") || !f["value"].is_number()) continue;
-      Figure figure{f["value"].get<double>(), -1.0, f.value("unit", "")};
+      Figure figure{f["value"].get<double>(), -1.0, f.value("unit", ""), {}};
       if (f.contains("uncertainty") && f["uncertainty"].is_number()) {
         figure.error = f["uncertainty"].get<double>();
+      }
+      if (figure.error < 0.0 && f.contains("no_error") && f["no_error"].is_string()) {
+        figure.no_error = f["no_error"].get<std::string>();
       }
       figures[prefix + dotted(one.key())] = figure;
     }

@@ -2,6 +2,7 @@
 #include "study/runner.hpp"
 
 #include "base/text.hpp"
+#include "study/noise.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -108,7 +109,8 @@ void Runner::print(std::size_t n) {
       if (!outcome.outputs[k].value) continue;
       text += (k == 0 ? ": " : ", ") + plan_.outputs[k].name + " = " +
               short_number(*outcome.outputs[k].value) +
-              (plan_.outputs[k].unit == "1" ? "" : " " + plan_.outputs[k].unit);
+              (plan_.outputs[k].unit == "1" ? "" : " " + plan_.outputs[k].unit) +
+              (is_unsteady(outcome.outputs[k]) ? " (not steady)" : "");
     }
   }
   std::printf("[%*zu/%zu] %s  %s  %s%s\n", static_cast<int>(std::to_string(total).size()), ended_,

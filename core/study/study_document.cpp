@@ -91,6 +91,7 @@ Json rows_json(const MainEffect& effect, const Results& results) {
           {"unit", output.unit},
           {"input", short_name(results.plan.inputs[effect.input].name)},
           {"coverage", coverage_text(effect.coverage)},
+          {"unsteady", unsteady_text(effect.coverage)},
           {"rows", rows}};
 }
 
@@ -181,12 +182,12 @@ Json effect_plot(const MainEffect& effect, const Results& results) {
           {"change", effect.coverage.used > 0 ? Json(effect.change) : Json(nullptr)},
           {"change_error", known(effect.error)},
           {"coverage", coverage_text(effect.coverage)},
+          {"unsteady", unsteady_text(effect.coverage)},
           {"is_scattered", effect.is_scattered},
           {"lines", lines}};
 }
 
-/// All effects of numbers at a glance: a row per output, a column per input. What stands out of
-/// twice its error is clear.
+/// All effects of numbers at a glance: a row per output, a column per input.
 Json table_json(const std::vector<MainEffect>& effects, const Results& results) {
   std::vector<std::size_t> columns;
   Json heads = Json::array();
@@ -211,11 +212,11 @@ Json table_json(const std::vector<MainEffect>& effects, const Results& results) 
         cells.push_back(nullptr);
         continue;
       }
-      const bool is_clear = effect->error >= 0.0 && std::abs(effect->change) > 2.0 * effect->error;
       cells.push_back({{"change", effect->change},
                        {"error", known(effect->error)},
-                       {"is_clear", is_clear},
-                       {"coverage", coverage_text(effect->coverage)}});
+                       {"is_clear", is_clear(*effect)},
+                       {"coverage", coverage_text(effect->coverage)},
+                       {"unsteady", unsteady_text(effect->coverage)}});
     }
     rows.push_back({{"output", results.plan.outputs[o].name},
                     {"unit", results.plan.outputs[o].unit},
@@ -275,8 +276,9 @@ Json points_json(const Results& results) {
     row["outputs"] = Json::array();
     for (std::size_t k = 0; k < results.plan.outputs.size(); ++k) {
       const OutputValue v = k < o.outputs.size() ? o.outputs[k] : OutputValue{};
-      row["outputs"].push_back(
-          {{"value", v.value ? Json(*v.value) : Json(nullptr)}, {"error", known(v.error)}});
+      row["outputs"].push_back({{"value", v.value ? Json(*v.value) : Json(nullptr)},
+                                {"error", known(v.error)},
+                                {"unsteady", is_unsteady(v)}});
     }
     rows.push_back(std::move(row));
   }

@@ -66,6 +66,16 @@ const char* status_word(Status status) {
   return "";
 }
 
+std::string why_no_errors(const Plan& plan, const Outcome& outcome) {
+  std::string text;
+  for (std::size_t k = 0; k < outcome.outputs.size(); ++k) {
+    const OutputValue& v = outcome.outputs[k];
+    if (!v.value || v.error >= 0.0 || v.no_error.empty()) continue;
+    text += (text.empty() ? "" : "; ") + plan.outputs[k].name + ": " + v.no_error;
+  }
+  return text;
+}
+
 void write_csv(const std::filesystem::path& file, const Results& results) {
   const Plan& plan = results.plan;
   std::string text = "point";
@@ -75,7 +85,7 @@ void write_csv(const std::filesystem::path& file, const Results& results) {
     text += "," + column_name(c.name, c.unit);
     if (c.has_error) text += "," + column_name(c.name + " error", c.unit);
   }
-  text += ",status,seed,hash,wall_s [s],reason\n";
+  text += ",status,seed,hash,wall_s [s],reason,no_error\n";
   for (std::size_t n = 0; n < plan.points.size(); ++n) {
     const Point& point = plan.points[n];
     const Outcome& outcome = results.outcomes[n];
@@ -91,7 +101,7 @@ void write_csv(const std::filesystem::path& file, const Results& results) {
     text += std::string(",") + status_word(outcome.status) + "," + std::to_string(point.seed) +
             "," + point.hash + ",";
     if (outcome.status != Status::waiting) text += scenario::number_text(outcome.wall_s);
-    text += "," + field(outcome.reason) + "\n";
+    text += "," + field(outcome.reason) + "," + field(why_no_errors(plan, outcome)) + "\n";
   }
   io::write_text(file, text);
 }
@@ -141,6 +151,7 @@ void write_points(hid_t root, const Results& results) {
   std::vector<std::string> status;
   std::vector<std::string> hash;
   std::vector<std::string> reason;
+  std::vector<std::string> no_error;
   std::vector<std::int64_t> seed;
   std::vector<std::int64_t> replicate;
   std::vector<double> wall;
@@ -149,6 +160,7 @@ void write_points(hid_t root, const Results& results) {
     status.emplace_back(status_word(results.outcomes[n].status));
     hash.push_back(point.hash);
     reason.push_back(results.outcomes[n].reason);
+    no_error.push_back(why_no_errors(results.plan, results.outcomes[n]));
     seed.push_back(static_cast<std::int64_t>(point.seed));
     replicate.push_back(point.replicate);
     wall.push_back(results.outcomes[n].wall_s);
@@ -156,6 +168,7 @@ void write_points(hid_t root, const Results& results) {
   write_texts(group.get(), "status", status, "finished, failed or waiting");
   write_texts(group.get(), "hash", hash, "of the resolved scenario; the folder in points/");
   write_texts(group.get(), "reason", reason, "of a failure");
+  write_texts(group.get(), "no_error", no_error, "why an output has no standard error");
   io::write_array(group.get(), "seed", H5T_NATIVE_INT64, seed.data(), {seed.size()},
                   io::Storage::plain, {"1", "seed of the random numbers"});
   io::write_array(group.get(), "replicate", H5T_NATIVE_INT64, replicate.data(), {replicate.size()},

@@ -20,8 +20,12 @@ struct Results {
 /// "finished", "failed" or "waiting".
 const char* status_word(Status status);
 
+/// "free: not steady; rate: few grains": why outputs of a point have no standard error; "" where
+/// nothing says.
+std::string why_no_errors(const Plan& plan, const Outcome& outcome);
+
 /// study.csv: a row per point with inputs, replicate, outputs (sensors with their standard error),
-/// status, seed, hash, wall_s and the reason of a failure; replaced atomically.
+/// status, seed, hash, wall_s, the reason of a failure and why_no_errors; replaced atomically.
 void write_csv(const std::filesystem::path& file, const Results& results);
 
 /// study.h5: the same as columns: /inputs, /outputs, /outputs_error and /points, one dataset per

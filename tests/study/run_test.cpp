@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <csignal>
@@ -126,6 +127,34 @@ TEST_CASE("a study shall count as 0 what a run leaves out because there is none"
   CHECK(rows[0].at("floor [kg]") == "0");
   CHECK(std::stod(rows[0].at("out [kg/h]")) > 0.0);
   CHECK(rows[0].at("more_out [kg/h]") == rows[0].at("out [kg/h]"));
+}
+
+TEST_CASE("a study shall say of which figures runs are not steady, and judge nothing by them") {
+  const TemporaryFolder folder;
+  const fs::path study =
+      write_study(folder,
+                  "base: drop.yaml\nreplicates: 2\nvary: {emitters.feed.mass_flow: [1, 2 g/s]}\n"
+                  "measure: {passed: sensors.out.forward.mass}\n"
+                  "expect: [{output: passed, input: emitters.feed.mass_flow, then: rises}]\n");
+  const fs::path out = folder / "out";
+  REQUIRE(engine({"study", study, "-o", out, "--quiet"}).status == 0);
+  // As a run says it whose mean still drifts.
+  for (const auto& row : table_of(out)) {
+    const fs::path summary = out / "points" / row.at("hash") / "summary.json";
+    auto json = nlohmann::json::parse(read_file(summary));
+    auto& figure = json["sensors"]["out"]["forward/mass"];
+    figure["uncertainty"] = nullptr;
+    figure["no_error"] = "not steady";
+    std::ofstream(summary) << json;
+  }
+  const auto run = engine({"study", study, "-o", out, "--resume"});
+  INFO(run.out);
+  REQUIRE(run.status == 0);
+  CHECK(run.out.find("open: 4 of 4 points not steady: ") != std::string::npos);
+  for (const auto& row : table_of(out)) {
+    CHECK(row.at("passed error [kg]").empty());
+    CHECK(row.at("no_error") == "passed: not steady");
+  }
 }
 
 TEST_CASE("a study killed half way and resumed shall equal an uninterrupted one row for row") {

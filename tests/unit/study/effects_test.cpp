@@ -33,6 +33,7 @@ struct Made {
           Point point;
           point.levels = {s, c};
           point.replicate = r;
+          point.seed = static_cast<std::uint64_t>(r);
           point.inputs = {{speeds[s], std::to_string(speeds[s])}, {0.0, c == 0 ? "a" : "b"}};
           plan.points.push_back(point);
           // x = 10 speed + 3 in case b; replicates lie 0.2 apart.
@@ -72,7 +73,9 @@ TEST_CASE("noise shall not be known by the errors of some points where others te
 TEST_CASE("noise shall be the scatter of replicates where there are any") {
   const Made made(2);
   // Two values 0.2 apart have a standard deviation of 0.2 / sqrt 2.
-  CHECK(noise_of(made.results(), 0).value() == approx(0.2 / std::sqrt(2.0)));
+  const auto noise = noise_of(made.results(), 0).value();
+  CHECK(noise.deviation == approx(0.2 / std::sqrt(2.0)));
+  CHECK(noise.freedom == 6.0);
 }
 
 TEST_CASE("points that failed shall be left out of the means") {
@@ -114,6 +117,84 @@ TEST_CASE("an effect shall be the change of the combinations that finished at bo
   CHECK(verdict.text ==
         "as expected: 30.00 +- 0.14 mm (2 of 8 points are missing, 2 left out: nothing finished to "
         "compare them with)");
+}
+
+TEST_CASE("replicates that begin with the same seeds shall tell the error by their changes") {
+  Made made(3);
+  // What a seed adds is the same at both speeds but for 0.3, 0 and -0.3.
+  for (std::size_t n = 0; n < made.plan.points.size(); ++n) {
+    const Point& point = made.plan.points[n];
+    const double own = 5.0 * static_cast<double>(point.seed);
+    const double rest = point.levels[0] == 2 ? 0.3 * (2.0 - static_cast<double>(point.seed)) : 0.0;
+    made.outcomes[n].outputs[0].value = 10.0 * point.inputs[0].number + own + rest;
+  }
+  const auto effects = main_effects(made.spec, made.results());
+  CHECK(effects.at(0).change == approx(30.0));
+  CHECK(effects[0].error == approx(0.3 / std::sqrt(3.0)));
+  // The cases share what a seed adds: three seeds, however many cases.
+  CHECK(effects[0].freedom == 2.0);
+  // One seed is missing at an end: what is left is as if independent.
+  made.outcomes[0] = {};
+  CHECK(main_effects(made.spec, made.results()).at(0).error > 2.0);
+}
+
+TEST_CASE("changes that are equal to the last digit shall not tell an error of 0") {
+  const Made made(2);
+  // Both seeds change by 30 exactly, as counts do by chance; their values scatter.
+  CHECK(main_effects(made.spec, made.results()).at(0).error > 0.05);
+}
+
+TEST_CASE("few values shall tell an effect by Student's t") {
+  // Tables: 12.706, 4.303, 3.182, 2.776, 2.228.
+  CHECK(clear_limit(1.0) == approx(12.706).epsilon(1e-4));
+  CHECK(clear_limit(2.0) == approx(4.303).epsilon(1e-4));
+  CHECK(clear_limit(3.0) == approx(3.182).epsilon(2e-3));
+  CHECK(clear_limit(4.0) == approx(2.776).epsilon(1e-3));
+  CHECK(clear_limit(10.0) == approx(2.228).epsilon(1e-3));
+  CHECK(clear_limit(1000.0) == 2.0);
+  CHECK(clear_limit(k_free) == 2.0);
+  Made made(2);
+  // The two seeds rise by 30 -+ 4: 7.5 times their error, of two values.
+  for (std::size_t n = 0; n < made.plan.points.size(); ++n) {
+    const Point& point = made.plan.points[n];
+    const double more = point.levels[0] == 2 ? (point.seed == 1 ? -4.0 : 4.0) : 0.0;
+    *made.outcomes[n].outputs[0].value += more;
+  }
+  Expectation e;
+  e.output = "x";
+  e.input = "belt.speed";
+  e.then = "rises";
+  const Verdict verdict = assess(e, made.spec, made.results());
+  CHECK(verdict.kind == Verdict::Kind::unresolved);
+  CHECK(verdict.text ==
+        "not told from noise: 30.0 +- 4.0 mm, of so few values 12.71 times the error tells");
+}
+
+TEST_CASE("an expectation shall stay open where points are not steady, whatever replicates say") {
+  Made made(3);
+  for (std::size_t n = 0; n < made.plan.points.size(); ++n) {
+    made.outcomes[n].outputs[0].error = -1.0;
+    // No error for another reason leaves the verdict to the replicates.
+    made.outcomes[n].outputs[0].no_error = "few grains";
+  }
+  Expectation e;
+  e.output = "x";
+  e.input = "belt.speed";
+  e.then = "rises";
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
+  // The middle speed is not compared.
+  made.outcomes[6].outputs[0].no_error = "not steady";
+  CHECK(assess(e, made.spec, made.results()).kind == Verdict::Kind::as_expected);
+  made.outcomes[0].outputs[0].no_error = "not steady";
+  made.outcomes[1].outputs[0].no_error = "not steady";
+  const Verdict verdict = assess(e, made.spec, made.results());
+  CHECK(verdict.kind == Verdict::Kind::unresolved);
+  CHECK(verdict.error < 0.0);
+  CHECK(verdict.text == "open: 2 of 12 points not steady: 30 mm");
+  const auto effects = main_effects(made.spec, made.results());
+  CHECK_FALSE(is_clear(effects.at(0)));
+  CHECK(unsteady_text(effects[0].coverage) == "2 of 12 points not steady");
+  CHECK(effects[0].levels[0].error < 0.0);
 }
 
 TEST_CASE("levels without a combination in common shall give no effect") {
