@@ -123,9 +123,9 @@ void FluidStage::advance(double time, const fluid::FaceField* force) {
       coupling_ ? coupling_->void_fraction_before() : no_particles_->void_fraction;
   solver_->advance(time, setup_.time.fluid_step, before, void_fraction(), exchange(force));
   if (resolved_) resolved_->evaluate(solver_->velocity());
-  // Found here and not when first asked for: that brings the eddies up to date, which the dust reads
-  // while the grains move.
-  if (coupling_) solver_->stress_divergence();
+  // Found here and not when first asked for: that brings the eddies up to date, which the dust
+  // reads while the grains move.
+  if (coupling_) static_cast<void>(solver_->stress_divergence());
   sub_steps_ += solver_->report().sub_steps;
   pressure_iterations_ += solver_->report().pressure_iterations;
 }

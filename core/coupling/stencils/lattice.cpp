@@ -65,8 +65,8 @@ void Lattice::set_open_fraction(const fluid::CellField& open_fraction) {
   }
 }
 
-void Lattice::close(std::span<const fluid::PartedFace> faces) {
-  for (const fluid::PartedFace& face : faces) {
+void Lattice::close(std::span<const fluid::BlockedFace> faces) {
+  for (const fluid::BlockedFace& face : faces) {
     open_face_[static_cast<std::size_t>(face.axis)][static_cast<std::size_t>(face.at)] = 0.0F;
   }
 }

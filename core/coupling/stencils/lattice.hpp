@@ -54,7 +54,7 @@ class Lattice {
   void set_open_fraction(const fluid::CellField& open_fraction);
 
   /// After set_open_fraction(): faces between cells that a thin body keeps apart take nothing.
-  void close(std::span<const fluid::PartedFace> faces);
+  void close(std::span<const fluid::BlockedFace> faces);
 
   [[nodiscard]] const fluid::Grid& grid() const { return grid_; }
   [[nodiscard]] double cell_volume() const { return cell_volume_; }

@@ -39,7 +39,7 @@ Geometry build_static_geometry(const Grid& grid, const bodies::BodySet& bodies,
 
 FaceField passable_area(const Grid& grid, const Geometry& geometry) {
   FaceField area = geometry.open_area;
-  for (const PartedFace& face : geometry.parted) area.component[face.axis][face.at] = 0.0;
+  for (const BlockedFace& face : geometry.blocked) area.component[face.axis][face.at] = 0.0;
   for (int d = 0; d < 3; ++d) {
     if (grid.is_periodic[d]) wrap_last_face(grid, d, area.component[d]);
   }

@@ -118,7 +118,7 @@ struct SkewNode {
 
 /// A face between cells that a body thinner than their distance keeps apart, and the plane of the
 /// body there.
-struct PartedFace {
+struct BlockedFace {
   std::int32_t at = 0;
   int axis = 0;
   std::array<int, 3> upper{};  ///< the cell on the high side
@@ -148,7 +148,7 @@ struct Geometry {
   std::array<std::vector<OpenPart>, 3> open_part;
   /// No fluid passes, whatever part of the face is open, but a body that moves shoves fluid
   /// through.
-  std::vector<PartedFace> parted;
+  std::vector<BlockedFace> blocked;
   std::array<std::vector<SkewFace>, 3> skew;            ///< in the order of rows
   std::array<std::vector<std::int32_t>, 3> skew_begin;  ///< as cut_begin
   std::array<std::vector<SkewNode>, 3> skew_node;

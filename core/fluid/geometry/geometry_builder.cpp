@@ -40,7 +40,7 @@ GeometryBuilder::GeometryBuilder(const Grid& grid, const bodies::BodySet& bodies
 Geometry GeometryBuilder::build() {
   measure_cells();
   for (int d = 0; d < 3; ++d) measure_faces(d);
-  for (int d = 0; d < 3; ++d) find_parted(d);
+  for (int d = 0; d < 3; ++d) find_blocked(d);
   for (int d = 0; d < 3; ++d) find_unknowns(d);
   for (int d = 0; d < 3; ++d) {
     const auto& kind = g_.kind[d];
@@ -137,7 +137,7 @@ bool GeometryBuilder::is_near(int d, const std::array<int, 3>& c, std::ptrdiff_t
   return std::min(a, b) < near_;
 }
 
-void GeometryBuilder::find_parted(int d) {
+void GeometryBuilder::find_blocked(int d) {
   if (field_.is_empty() || grid_.count[d] == 1) return;
   const auto& n = grid_.count;
   for (int k = 0; k < n[2]; ++k) {
@@ -154,7 +154,7 @@ void GeometryBuilder::find_parted(int d) {
         const auto to = field_.outside(upper);
         const auto way = from && to ? field_.passes_through(*from, *to) : std::nullopt;
         if (!way) continue;
-        g_.parted.push_back(parted_face(d, c, *from, *to, *way));
+        g_.blocked.push_back(blocked_face(d, c, *from, *to, *way));
         closed_[d][o] = 2;
       }
     }
@@ -162,8 +162,8 @@ void GeometryBuilder::find_parted(int d) {
 }
 
 /// `way` [m] from the lower to the upper cell until the body is met.
-PartedFace GeometryBuilder::parted_face(int d, const std::array<int, 3>& c, Vec3 from, Vec3 to,
-                                        double way) const {
+BlockedFace GeometryBuilder::blocked_face(int d, const std::array<int, 3>& c, Vec3 from, Vec3 to,
+                                          double way) const {
   const Vec3 along = (to - from) / norm(to - from);
   const Vec3 first = from + way * along;
   const auto back = field_.passes_through(to, from);

@@ -45,9 +45,9 @@ class GeometryBuilder {
   /// Cells whose points in the fluid have a thin body between them have nothing to do with each
   /// other. A way through the grid from one side of the body to the other crosses it somewhere, and
   /// there it meets such a face: nothing leaks.
-  void find_parted(int d);
-  [[nodiscard]] PartedFace parted_face(int d, const std::array<int, 3>& c, Vec3 from, Vec3 to,
-                                       double way) const;
+  void find_blocked(int d);
+  [[nodiscard]] BlockedFace blocked_face(int d, const std::array<int, 3>& c, Vec3 from, Vec3 to,
+                                         double way) const;
   void find_unknowns(int d);
   std::int32_t add_wall_point(Vec3 near) {
     const Hit hit = nearest(near);
@@ -91,7 +91,7 @@ class GeometryBuilder {
   double smear_ = 0.0;                               ///< [s]
   double near_ = 0.0;                                ///< [m]
   CellField distance_;                               ///< [m] of cell centres; empty without bodies
-  std::array<std::vector<std::uint8_t>, 3> closed_;  ///< 1 in a body at the end, 2 parted
+  std::array<std::vector<std::uint8_t>, 3> closed_;  ///< 1 in a body at the end, 2 blocked
   Geometry g_;
   std::vector<SurfacePoint> points_;
 };

@@ -37,7 +37,7 @@ class SkewStencils {
     const FaceProperties& properties;
     const BodyField& field;
     const CellField& distance;                               ///< [m] of cell centres
-    const std::array<std::vector<std::uint8_t>, 3>& closed;  ///< of faces, 2 = parted
+    const std::array<std::vector<std::uint8_t>, 3>& closed;  ///< of faces, 2 = blocked
   };
   /// Adds to `geometry`, whose faces have their kinds, and to `points`.
   SkewStencils(const SolverParts& parts, Geometry& geometry, std::vector<SurfacePoint>& points);

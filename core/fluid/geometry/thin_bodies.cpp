@@ -17,7 +17,7 @@ std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 }  // namespace
 
 void ThinBodies::set(const Geometry& geometry) {
-  faces_ = geometry.parted;
+  faces_ = geometry.blocked;
   cells_.clear();
   near_.clear();
   if (faces_.empty()) return;
@@ -74,7 +74,7 @@ std::int32_t ThinBodies::cell_at(const Indices& cell) const {
   return near_[at(grid_.index(inside[0], inside[1], inside[2]))];
 }
 
-bool ThinBodies::is_parted(const Indices& cell, int axis, int step) const {
+bool ThinBodies::is_blocked(const Indices& cell, int axis, int step) const {
   const std::int32_t place = cell_at(cell);
   if (place == k_none) return false;
   const int side = 2 * axis + (step > 0 ? 1 : 0);
@@ -82,7 +82,7 @@ bool ThinBodies::is_parted(const Indices& cell, int axis, int step) const {
 }
 
 /// [m] of the point over the middle of the body, towards the upper cell.
-double ThinBodies::height_over(Vec3 point, const PartedFace& face) const {
+double ThinBodies::height_over(Vec3 point, const BlockedFace& face) const {
   Vec3 way = point - face.middle;
   for (int d = 0; d < 3; ++d) {
     if (!grid_.is_periodic[d]) continue;
@@ -93,13 +93,13 @@ double ThinBodies::height_over(Vec3 point, const PartedFace& face) const {
 }
 
 /// The cell whose fluid is at the point: its own, or of the neighbours across the body the nearest.
-ThinBodies::Indices ThinBodies::home(Vec3 point, const Indices& own) const {
+ThinBodies::Indices ThinBodies::cell_of(Vec3 point, const Indices& own) const {
   const Cell& cell = cells_[static_cast<std::size_t>(cell_at(own))];
   double shortest = std::numeric_limits<double>::infinity();
   Indices best = own;
   for (std::size_t side = 0; side < 6; ++side) {
     if (cell.face[side] == k_none) continue;
-    const PartedFace& face = faces_[static_cast<std::size_t>(cell.face[side])];
+    const BlockedFace& face = faces_[static_cast<std::size_t>(cell.face[side])];
     const int step = side % 2 == 0 ? -1 : 1;
     if (!(step * height_over(point, face) > 0.0)) continue;
     Indices neighbour = own;
@@ -113,19 +113,19 @@ ThinBodies::Indices ThinBodies::home(Vec3 point, const Indices& own) const {
 }
 
 /// Whether the corner cell `step` away lies beyond a body: all ways to it from its neighbours are
-/// parted.
-bool ThinBodies::is_corner_parted(const Indices& cell, const Indices& step) const {
+/// blocked.
+bool ThinBodies::is_corner_blocked(const Indices& cell, const Indices& step) const {
   for (std::size_t d = 0; d < 3; ++d) {
     if (step[d] == 0) continue;
     Indices before = cell;
     for (std::size_t e = 0; e < 3; ++e) before[e] += e == d ? 0 : step[e];
-    if (!is_parted(before, static_cast<int>(d), step[d])) return false;
+    if (!is_blocked(before, static_cast<int>(d), step[d])) return false;
   }
   return true;
 }
 
 Vec3 ThinBodies::moved(Vec3 point, const Indices& own) const {
-  const Indices cell = home(point, own);
+  const Indices cell = cell_of(point, own);
   if (cell_at(cell) == k_none) return point;
   const Vec3 centre = grid_.centre(cell[0], cell[1], cell[2]);
   Indices step{};  // towards the neighbours that it is interpolated with
@@ -152,7 +152,7 @@ Vec3 ThinBodies::moved(Vec3 point, const Indices& own) const {
       nearest = axis;
       shift = needed;
     }
-    if (!is_reached || !is_corner_parted(cell, corner)) continue;
+    if (!is_reached || !is_corner_blocked(cell, corner)) continue;
     point[nearest] = centre[nearest];
     step[static_cast<std::size_t>(nearest)] = 0;
   }

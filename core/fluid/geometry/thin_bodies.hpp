@@ -21,7 +21,7 @@ class ThinBodies {
 
   /// Takes the faces that such bodies part.
   void set(const Geometry& geometry);
-  [[nodiscard]] std::span<const PartedFace> faces() const { return faces_; }
+  [[nodiscard]] std::span<const BlockedFace> faces() const { return faces_; }
   /// There is none: all points stay where they are.
   [[nodiscard]] bool is_empty() const { return cells_.empty(); }
   /// A point [m] of the fluid moved by at most one and a half cells, along the axes of the grid, so
@@ -37,7 +37,7 @@ class ThinBodies {
  private:
   using Indices = std::array<int, 3>;
   static constexpr std::int32_t k_none = -1;
-  /// The parted faces of a cell: low and high of x, y, z, as places in `faces_`.
+  /// The blocked faces of a cell: low and high of x, y, z, as places in `faces_`.
   struct Cell {
     std::array<std::int32_t, 6> face{k_none, k_none, k_none, k_none, k_none, k_none};
   };
@@ -45,14 +45,14 @@ class ThinBodies {
   [[nodiscard]] Indices indices(sdk::Vec3 point) const;
   /// Place in `cells_`; k_none away from thin bodies and outside the domain.
   [[nodiscard]] std::int32_t cell_at(const Indices& at) const;
-  [[nodiscard]] bool is_parted(const Indices& at, int axis, int step) const;
-  [[nodiscard]] bool is_corner_parted(const Indices& cell, const Indices& step) const;
+  [[nodiscard]] bool is_blocked(const Indices& at, int axis, int step) const;
+  [[nodiscard]] bool is_corner_blocked(const Indices& cell, const Indices& step) const;
   [[nodiscard]] sdk::Vec3 moved(sdk::Vec3 point, const Indices& own) const;
-  [[nodiscard]] Indices home(sdk::Vec3 point, const Indices& own) const;
-  [[nodiscard]] double height_over(sdk::Vec3 point, const PartedFace& face) const;
+  [[nodiscard]] Indices cell_of(sdk::Vec3 point, const Indices& own) const;
+  [[nodiscard]] double height_over(sdk::Vec3 point, const BlockedFace& face) const;
 
   const Grid& grid_;
-  std::vector<PartedFace> faces_;
+  std::vector<BlockedFace> faces_;
   std::vector<Cell> cells_;
   std::vector<std::int32_t> near_;  ///< of each cell of the grid its place in `cells_`
 };

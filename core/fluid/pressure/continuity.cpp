@@ -297,7 +297,7 @@ void Continuity::add_side_flows(const FaceField& v, const CellField& eps, RoomFl
 /// The volume that thin bodies which move take from the cell on their one side and give to that on
 /// the other.
 void Continuity::add_sheet_flows(const FaceField& v, RoomFlows& flows) const {
-  for (const PartedFace& face : geometry_.parted) {
+  for (const BlockedFace& face : geometry_.blocked) {
     const int d = face.axis;
     const std::ptrdiff_t o = face.at;
     const double area =
