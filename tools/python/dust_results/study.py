@@ -81,7 +81,8 @@ def _joined(groups, title):
         columns[name] = column
         if name in groups["outputs_error"]:
             columns[name + " error"] = groups["outputs_error"][name]
-    for name in ("status", "seed", "hash", "wall_s", "reason"):
-        columns[name] = points[name]
+    for name in ("status", "seed", "hash", "wall_s", "reason", "no_error"):
+        if name in points:  # no_error: studies of before have none
+            columns[name] = points[name]
     return Table({name: values for name, (values, _) in columns.items()},
                  {name: unit for name, (_, unit) in columns.items()}, title)
