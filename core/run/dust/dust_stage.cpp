@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/dust/dust_stage.hpp"
 
+#include "bodies/survey/surface_in_box.hpp"
 #include "dust/sdk/sampling.hpp"
 #include "fluid/parallel.hpp"
 #include "preflight/flow_check.hpp"
@@ -33,23 +34,6 @@ fluid::BodyField::Hit hit_between(const fluid::BodyField& bodies, sdk::Vec3 cent
 constexpr double k_rounding = 1e-9;
 /// Of half the diagonal of a face: a surface that is nearer to it meets it.
 constexpr double k_finest_part = 0.03;
-
-/// Whether the surface of a body meets a box round `middle` of half edges `half` [m]: parts that
-/// are farther from it than they reach are left out, others halved along their longest edge.
-bool meets(const bodies::Body& body, const bodies::Placement& placement, sdk::Vec3 middle,
-           sdk::Vec3 half, double finest) {
-  const double reach = norm(half);
-  if (std::abs(body.nearest(middle, placement).distance) > reach) return false;
-  if (reach <= finest) return true;
-  int d = half.y > half.x ? 1 : 0;
-  if (half.z > half[d]) d = 2;
-  half[d] *= 0.5;
-  sdk::Vec3 other = middle;
-  middle[d] -= half[d];
-  other[d] += half[d];
-  return meets(body, placement, middle, half, finest) ||
-         meets(body, placement, other, half, finest);
-}
 
 std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
@@ -211,7 +195,8 @@ std::uint8_t DustStage::sides_passed(const std::array<int, 3>& cell, int body, d
     sdk::Vec3 half = 0.5 * grid.spacing;
     half[axis] = 0.0;
     const bodies::Body& b = models_.bodies[static_cast<std::size_t>(body)];
-    if (meets(b, b.placement(time), middle, half, k_finest_part * norm(half))) passed |= 1U << side;
+    const double finest = k_finest_part * norm(half);
+    if (bodies::may_meet_box(b, b.placement(time), middle, half, finest)) passed |= 1U << side;
   }
   return static_cast<std::uint8_t>(passed);
 }
