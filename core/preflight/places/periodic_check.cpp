@@ -4,7 +4,9 @@
 #include "base/text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace dust::preflight {
@@ -24,14 +26,21 @@ struct Extent {
   double high = -std::numeric_limits<double>::infinity();
 };
 
+/// A body at an instant of the run, and the grains that meet it.
+struct Scene {
+  const scenario::DomainSpec& domain;
+  const bodies::Body& body;
+  bodies::Placement place;
+  double smallest = 0.0, largest = 0.0;  ///< [m] diameters of grains
+};
+
 /// Of a body along d, as far as a box far beyond the domain.
-Extent extent_of(const scenario::DomainSpec& domain, const bodies::Body& body, int d,
-                 double diameter) {
-  const double far = 2.0 * (norm(domain.max - domain.min) + diameter);
+Extent extent_of(const Scene& scene, int d) {
+  const auto& [domain, body, place, smallest, largest] = scene;
+  const double far = 2.0 * (norm(domain.max - domain.min) + largest);
   const Vec3 more{far, far, far};
   Extent extent;
-  for (const Vec3& p :
-       body.triangles(domain.min - more, domain.max + more, far, body.placement(0.0))) {
+  for (const Vec3& p : body.triangles(domain.min - more, domain.max + more, far, place)) {
     extent.low = std::min(extent.low, p[d]);
     extent.high = std::max(extent.high, p[d]);
   }
@@ -40,32 +49,142 @@ Extent extent_of(const scenario::DomainSpec& domain, const bodies::Body& body, i
 
 /// Grains are put back when they are a radius beyond a periodic side: a body has to be there as
 /// far, or so far away that none of them would touch its other end.
-bool is_whole(const Extent& body, double low, double high, double diameter) {
-  const double rounding = 1e-9 * (high - low);
-  const double radius = 0.5 * diameter - rounding;
-  diameter -= rounding;
-  const bool spans = body.low <= low - radius && body.high >= high + radius;
-  const bool lies_inside = body.low >= low + diameter && body.high <= high - diameter;
-  const bool lies_outside = body.low >= high + diameter || body.high <= low - diameter;
-  return spans || lies_inside || lies_outside;
+struct Reach {
+  bool spans = false;   ///< from beyond one side to beyond the other
+  bool misses = false;  ///< is nowhere near them
+
+  static Reach of(const Extent& body, double low, double high, double diameter) {
+    const double rounding = 1e-9 * (high - low);
+    const double radius = 0.5 * diameter - rounding;
+    diameter -= rounding;
+    const bool lies_inside = body.low >= low + diameter && body.high <= high - diameter;
+    const bool lies_outside = body.low >= high + diameter || body.high <= low - diameter;
+    return {body.low <= low - radius && body.high >= high + radius, lies_inside || lies_outside};
+  }
+};
+
+/// Compares the sections of a body where grains leave through one periodic side and come back
+/// through the other: its surface has to be as far from a grain that is put back as it was before.
+class Sections {
+ public:
+  Sections(const Scene& scene, int d) : scene_(scene), d_(d) {}
+
+  /// A point at the low side where a grain would find the surface elsewhere, if there is one.
+  std::optional<Vec3> difference() {
+    const double radius = 0.5 * scene_.largest;
+    const int e = (d_ + 1) % 3;
+    const int f = (d_ + 2) % 3;
+    const Vec3 middle = 0.5 * (scene_.domain.min + scene_.domain.max);
+    const Vec3 half = 0.5 * (scene_.domain.max - scene_.domain.min);
+    for (const double beyond : {-radius, radius}) {
+      Vec3 at = middle;
+      at[d_] = scene_.domain.min[d_] + beyond;
+      look_round(at, e, half[e] + radius, f, half[f] + radius);
+    }
+    return found_;
+  }
+  [[nodiscard]] double here() const { return here_; }    ///< [m] from that point to the surface
+  [[nodiscard]] double there() const { return there_; }  ///< [m] from its place at the high side
+
+ private:
+  /// [m] Grains lose or gain m g times it as they pass: less than contacts give way by themselves.
+  [[nodiscard]] double tolerance() const { return 1e-3 * scene_.smallest; }
+
+  /// Looks at the middle of a rectangle with half edges a along e and b along f, and at its
+  /// quarters where the surface may be as near as a grain's radius to any of it.
+  void look_round(Vec3 at, int e, double a, int f, double b) {
+    if (found_) return;
+    Vec3 other = at;
+    other[d_] += scene_.domain.max[d_] - scene_.domain.min[d_];
+    const double here = scene_.body.nearest(at, scene_.place).distance;
+    const double there = scene_.body.nearest(other, scene_.place).distance;
+    const double radius = 0.5 * scene_.largest;
+    const double near = std::min(std::abs(here), std::abs(there));
+    // Within the body on both sides there are no grains, and its ends may be nearer.
+    const bool is_outside = std::max(here, there) > tolerance();
+    if (is_outside && near < radius && std::abs(here - there) > tolerance()) {
+      found_ = at;
+      here_ = here;
+      there_ = there;
+      return;
+    }
+    if (near > radius + std::hypot(a, b)) return;
+    if (std::max(a, b) < finest()) return;
+    const bool is_long = a > b;
+    (is_long ? a : b) *= 0.5;
+    for (const double way : {-1.0, 1.0}) {
+      Vec3 part = at;
+      part[is_long ? e : f] += way * (is_long ? a : b);
+      look_round(part, e, a, f, b);
+    }
+  }
+  /// [m] Half a radius, but no finer than a thousandth of the domain: bounded work.
+  [[nodiscard]] double finest() const {
+    return std::max(0.25 * scene_.largest, 1e-3 * norm(scene_.domain.max - scene_.domain.min));
+  }
+
+  const Scene& scene_;
+  int d_;
+  std::optional<Vec3> found_;
+  double here_ = 0.0, there_ = 0.0;
+};
+
+std::string sides_text(int d) {
+  const auto side = static_cast<std::size_t>(2 * d);
+  return std::string(scenario::k_side_names[side]) + " and " + scenario::k_side_names[side + 1];
 }
 
-void check_body(const scenario::Setup& setup, std::size_t b, const bodies::Body& body, int d,
-                double diameter, scenario::Diagnostics& diagnostics) {
-  const double low = setup.domain.min[d];
-  const double high = setup.domain.max[d];
-  const Extent extent = extent_of(setup.domain, body, d, diameter);
-  if (is_whole(extent, low, high, diameter)) return;
+std::string end_problem(const Scene& scene, int d, const Extent& extent) {
+  const double low = scene.domain.min[d];
+  const double high = scene.domain.max[d];
+  const double diameter = scene.largest;
   const auto text = [](double length) { return base::length_text(length); };
-  const auto side = static_cast<std::size_t>(2 * d);
-  diagnostics.error(
-      setup.bodies[b].where,
-      "bodies." + body.name + ": ends near the periodic sides " + scenario::k_side_names[side] +
-          " and " + scenario::k_side_names[side + 1] + " (" + k_axes[d] + " from " +
-          text(extent.low) + " to " + text(extent.high) +
-          "), where grains that pass through would miss it: let it reach beyond both, from " +
-          text(low - diameter) + " to " + text(high + diameter) + ", or keep it between " +
-          text(low + diameter) + " and " + text(high - diameter));
+  return "ends near the periodic sides " + sides_text(d) + " (" + k_axes[d] + " from " +
+         text(extent.low) + " to " + text(extent.high) +
+         "), where grains that pass through would miss it: let it reach beyond both, from " +
+         text(low - diameter) + " to " + text(high + diameter) + ", or keep it between " +
+         text(low + diameter) + " and " + text(high - diameter);
+}
+
+std::string section_problem(const Scene& scene, int d, Vec3 at, const Sections& sections) {
+  const auto text = [](double length) { return base::length_text(length); };
+  Vec3 other = at;
+  other[d] += scene.domain.max[d] - scene.domain.min[d];
+  return "is not the same at the periodic sides " + sides_text(d) + ": its surface is " +
+         text(sections.here()) + " from " + base::place_text(at) + ", but " +
+         text(sections.there()) + " from " + base::place_text(other) +
+         ", and grains that pass would be thrust out of it or drop: let it run along " + k_axes[d] +
+         " unchanged (for a slope, incline gravity in place of the body)";
+}
+
+/// What is wrong with a body at the periodic sides of direction d at one instant; empty: nothing.
+std::string problem_of(const Scene& scene, int d) {
+  const Extent extent = extent_of(scene, d);
+  const Reach reach = Reach::of(extent, scene.domain.min[d], scene.domain.max[d], scene.largest);
+  if (reach.misses) return "";
+  if (!reach.spans) return end_problem(scene, d, extent);
+  Sections sections(scene, d);
+  const std::optional<Vec3> at = sections.difference();
+  return at ? section_problem(scene, d, *at, sections) : "";
+}
+
+/// Instants at which a body that goes to other places is looked at: a period of a vibration that
+/// is not much shorter than the run is seen.
+constexpr int k_instants = 32;
+
+void check_body(const scenario::Setup& setup, std::size_t b, const bodies::Body& body, int d,
+                const ParticleModels& models, scenario::Diagnostics& diagnostics) {
+  const int last = body.displaces() ? k_instants : 0;
+  for (int n = 0; n <= last; ++n) {
+    const double time = setup.time.end * n / k_instants;
+    const Scene scene{setup.domain, body, body.placement(time), models.class_diameters.front(),
+                      models.class_diameters.back()};
+    const std::string problem = problem_of(scene, d);
+    if (problem.empty()) continue;
+    const std::string when = n > 0 ? "after " + base::duration_text(time) + " it " : "";
+    diagnostics.error(setup.bodies[b].where, "bodies." + body.name + ": " + when + problem);
+    return;
+  }
 }
 
 }  // namespace
@@ -77,7 +196,7 @@ void check_bodies_at_periodic_sides(const scenario::Setup& setup, const Particle
   for (int d = 0; d < 3; ++d) {
     if (!is_periodic(setup, d)) continue;
     for (std::size_t b = 0; b < models.bodies.size(); ++b) {
-      check_body(setup, b, models.bodies[b], d, models.class_diameters.back(), diagnostics);
+      check_body(setup, b, models.bodies[b], d, models, diagnostics);
     }
   }
 }

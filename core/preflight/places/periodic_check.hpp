@@ -7,8 +7,10 @@
 
 namespace dust::preflight {
 
-/// Refuses bodies that end at a periodic side: grains that pass through it would miss them on the
-/// other one. Bodies are looked at where they are as the run begins.
+/// Refuses bodies that end at a periodic side, where grains that pass through it would miss them on
+/// the other one, and bodies that are not the same at both: a slope across them would lift grains
+/// or let them drop as they pass. Bodies that go to other places are looked at at instants through
+/// the run.
 void check_bodies_at_periodic_sides(const scenario::Setup& setup, const ParticleModels& models,
                                     scenario::Diagnostics& diagnostics);
 

@@ -116,6 +116,43 @@ TEST_CASE("a body that ends at a periodic side shall be refused with where it ma
             .errors == std::vector<std::string>{});
 }
 
+TEST_CASE("a body that is not the same at both periodic sides shall be refused") {
+  const std::string words = "bodies.shelf: is not the same at the periodic sides left and right";
+  const auto slope = [](const std::string& normal) {
+    return std::vector<scenario::Override>{
+        {"bodies.shelf",
+         "{shape: plane, material: sand, point: [50, 0, 20 mm], normal: " + normal + "}"}};
+  };
+  // Half a millimetre higher at one side than at the other, a 250th of what is let pass.
+  CHECK(problem(slope("[-0.005, 0, 1]"), {words, "for a slope, incline gravity"}) == "");
+  CHECK(said(slope("[-2e-5, 0, 1]")).errors == std::vector<std::string>{});
+  CHECK(said(slope("[0, -0.3, 1]")).errors == std::vector<std::string>{});  // along y: unchanged
+  // A beam that is turned a little about the vertical: its ends are not opposite.
+  const auto beam = [](const std::string& angle) {
+    return std::vector<scenario::Override>{
+        {"frames.turned", "{origin: [50, 25, 25 mm], axis: [0, 0, 1], angle: " + angle + "}"},
+        {"bodies.shelf",
+         "{shape: box, material: sand, frame: turned, min: [-40, 10, 20 mm], max: [140, 40, 30 "
+         "mm]}"}};
+  };
+  CHECK(said(beam("0 deg")).errors == std::vector<std::string>{});
+  CHECK(problem(beam("1 deg"), {words}) == "");
+}
+
+TEST_CASE("a body that moves to a periodic side shall be refused with when") {
+  const auto shelf = [](const std::string& velocity) {
+    return std::vector<scenario::Override>{
+        {"bodies.shelf",
+         "{shape: box, material: sand, min: [10, 0, 20 mm], max: [50, 50, 30 mm], motion: "
+         "translate, velocity: " +
+             velocity + "}"}};
+  };
+  // 40 mm in 0.1 s, where it may go 46 mm.
+  CHECK(said(shelf("[0.4, 0, 0]")).errors == std::vector<std::string>{});
+  CHECK(problem(shelf("[0.8, 0, 0]"),
+                {"bodies.shelf: after ", "it ends near the periodic sides"}) == "");
+}
+
 TEST_CASE("laws that reach through both periodic sides shall be refused") {
   const scenario::Override wet = {
       "interactions[0].cohesion",
