@@ -77,10 +77,11 @@ struct DemReport {
 /// A contact as sensors see it.
 struct ContactRecord {
   std::int32_t row_i = 0;
-  std::int32_t row_j = 0;  ///< < 0: surface -1 - row_j
-  sdk::Vec3 force;         ///< [N] on i, contact stage
-  sdk::Vec3 branch;        ///< [m] from the centre of i to that of j, or to the contact point
-  double overlap = 0.0;    ///< [m] < 0 within a law's range
+  std::int32_t row_j = 0;   ///< < 0: surface -1 - row_j
+  sdk::Vec3 force;          ///< [N] on i, contact stage
+  sdk::Vec3 branch;         ///< [m] from the centre of i to that of j, or to the contact point
+  double overlap = 0.0;     ///< [m] < 0 within a law's range
+  sdk::Vec3 wall_velocity;  ///< [m/s] of the surface at the contact point; 0 between grains
 };
 
 /// Discrete elements: rows in Morton order in fixed tiles, Verlet lists from a hierarchical grid,

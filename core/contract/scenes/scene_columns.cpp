@@ -89,16 +89,19 @@ void SceneColumns::show_contacts(const SyntheticScene& scene) {
   for (const Contact& c : scene.contacts) {
     partners_[0].push_back(c.i);
     partners_[1].push_back(c.j);
-    const double values[7] = {f * c.force.x,  f * c.force.y,  f * c.force.z, l * c.branch.x,
-                              l * c.branch.y, l * c.branch.z, l * c.overlap};
-    for (int n = 0; n < 7; ++n) contact_columns_[n].push_back(values[n]);
+    const sdk::Vec3 wall = l / scene.units.time * c.wall_velocity;
+    const double values[10] = {f * c.force.x,  f * c.force.y,  f * c.force.z, l * c.branch.x,
+                               l * c.branch.y, l * c.branch.z, l * c.overlap, wall.x,
+                               wall.y,         wall.z};
+    for (int n = 0; n < 10; ++n) contact_columns_[n].push_back(values[n]);
   }
   sdk::ContactColumns& c = view_.contacts;
   c.grain_i = partners_[0];
   c.grain_j = partners_[1];
-  std::span<const double>* targets[7] = {&c.force_x,  &c.force_y,  &c.force_z, &c.branch_x,
-                                         &c.branch_y, &c.branch_z, &c.overlap};
-  for (int n = 0; n < 7; ++n) *targets[n] = contact_columns_[n];
+  std::span<const double>* targets[10] = {
+      &c.force_x,  &c.force_y, &c.force_z,         &c.branch_x,        &c.branch_y,
+      &c.branch_z, &c.overlap, &c.wall_velocity_x, &c.wall_velocity_y, &c.wall_velocity_z};
+  for (int n = 0; n < 10; ++n) *targets[n] = contact_columns_[n];
 }
 
 void SceneColumns::show_walls(const SyntheticScene& scene) {

@@ -37,7 +37,7 @@ class SceneColumns {
   std::vector<std::int32_t> material_;
   std::vector<double> columns_[18];
   std::vector<std::int32_t> partners_[2];
-  std::vector<double> contact_columns_[7];
+  std::vector<double> contact_columns_[10];
   WallColumns walls_;
   std::vector<sdk::WallImpact> impacts_;
   std::vector<float> pressure_;

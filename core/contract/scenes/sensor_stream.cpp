@@ -99,7 +99,7 @@ void SensorStream::touch(double time) {
     const double force = 1e-6 * (1 + i % 7);
     const sdk::Vec3 branch{1e-4 * (1 + i % 3), 0, 2e-4};
     scene_.contacts.push_back({i, i + 1, (-force / norm(branch)) * branch, branch, 1e-9});
-    scene_.contacts.push_back({i, -1, {0, 0, force}, {0, 0, -2e-4}, 1e-9});
+    scene_.contacts.push_back({i, -1, {0, 0, force}, {0, 0, -2e-4}, 1e-9, {0.1, 0, 0}});
     scene_.contacts.push_back({i + 1, i + 3, {0, 0, 0}, {0, 0, 2e-4}, -1e-9});
   }
 }

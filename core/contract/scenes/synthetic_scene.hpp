@@ -30,6 +30,7 @@ struct Contact {
   sdk::Vec3 force;   ///< on i
   sdk::Vec3 branch;  ///< from i to j, or to the wall
   double overlap = 1e-9;
+  sdk::Vec3 wall_velocity{};  ///< of its surface
 };
 
 struct Wall {

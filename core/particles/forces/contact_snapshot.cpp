@@ -88,8 +88,9 @@ class Viewer {
       std::fill_n(columns.column(B::first_history + static_cast<int>(h)), contact::padded(1),
                   history[h]);
     }
-    evaluate_laws(law, columns, 1, time_step);
     ContactRecord r;
+    r.wall_velocity = columns.vectors(B::separation_x)[0];
+    evaluate_laws(law, columns, 1, time_step);
     r.row_i = row;
     r.row_j = -1 - number;
     r.branch = -(grain.radius - 0.5 * overlap) * near.normal;

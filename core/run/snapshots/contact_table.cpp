@@ -14,6 +14,7 @@ void ContactTable::publish(const std::vector<particles::ContactRecord>& records,
   for (int d = 0; d < 3; ++d) {
     force_[d].resize(count);
     branch_[d].resize(count);
+    wall_velocity_[d].resize(count);
   }
   for (std::size_t n = 0; n < count; ++n) {
     const particles::ContactRecord& r = records[n];
@@ -23,6 +24,7 @@ void ContactTable::publish(const std::vector<particles::ContactRecord>& records,
     for (int d = 0; d < 3; ++d) {
       force_[d][n] = r.force[d];
       branch_[d][n] = r.branch[d];
+      wall_velocity_[d][n] = r.wall_velocity[d];
     }
   }
 }
@@ -38,6 +40,9 @@ sdk::ContactColumns ContactTable::columns() const {
   c.branch_y = branch_[1];
   c.branch_z = branch_[2];
   c.overlap = overlap_;
+  c.wall_velocity_x = wall_velocity_[0];
+  c.wall_velocity_y = wall_velocity_[1];
+  c.wall_velocity_z = wall_velocity_[2];
   return c;
 }
 

@@ -24,6 +24,7 @@ class ContactTable {
   std::vector<double> force_[3];
   std::vector<double> branch_[3];
   std::vector<double> overlap_;
+  std::vector<double> wall_velocity_[3];
   std::vector<std::int32_t> place_;  ///< of each row among the published grains
 };
 

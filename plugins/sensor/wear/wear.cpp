@@ -22,7 +22,6 @@ class Wear final : public sdk::Sensor {
     double cell = 0.0;
     double coefficient = 0.0;
     double hardness = 0.0;
-    sdk::Vec3 surface_velocity;
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
@@ -40,15 +39,12 @@ class Wear final : public sdk::Sensor {
              "Hardness of the wall's material.")
         .symbol("H")
         .above(0);
-    s.vector(&Parameters::surface_velocity, "surface_velocity", sdk::dimension::velocity,
-             "Velocity of the wall's surface in the box, of a belt for example.")
-        .optional();
     sdk::declare_steady(s);
     return s.build();
   }
   static sdk::ModelInfo describe() {
     return {.name = "wear",
-            .version = "1.0",
+            .version = "2.0",
             .summary = "Wear of liners by Archard's law and pressure on them, place by place.",
             .equation = R"(\dot V = \frac{k}{H} \sum_c w_c F_{n,c}\, v_{t,c},\quad )"
                         R"(p = \frac{1}{a^2} \sum_c w_c F_{n,c})",
@@ -160,7 +156,8 @@ class Wear final : public sdk::Sensor {
     const double normal = -dot(on_grain, into);
     const sdk::Vec3 spin{g.angular_velocity_x[i], g.angular_velocity_y[i], g.angular_velocity_z[i]};
     sdk::Vec3 slip = sdk::Vec3{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]} +
-                     cross(spin, branch) - p_.surface_velocity;
+                     cross(spin, branch) -
+                     sdk::Vec3{c.wall_velocity_x[q], c.wall_velocity_y[q], c.wall_velocity_z[q]};
     slip -= dot(slip, into) * into;
     const sdk::Vec3 friction = on_grain + normal * into;
     if (!(normal > 0.0)) return;  // a grain that is held by cohesion only wears nothing

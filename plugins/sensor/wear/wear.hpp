@@ -8,7 +8,7 @@ namespace dust::model::wear {
 /// @param coefficient  [-] k, of the pair of materials and how abrasive the contact is
 /// @param hardness     [Pa] H of the surface that wears
 /// @param force        [N] normal force of the contact
-/// @param slip         [m/s] speed of the grain's surface along the wall
+/// @param slip         [m/s] speed of the grain's surface along that of the wall
 constexpr double archard(double coefficient, double hardness, double force, double slip) {
   return coefficient * force * slip / hardness;
 }

@@ -107,7 +107,6 @@ const std::vector<Subject>& subjects() {
         {"cell", 0.02},
         {"coefficient", 2e-3},
         {"hardness", 2e9},
-        {"surface_velocity", Vec3{0.1, 0, 0}},
         {"steady_after", 0.03}}},
       {"angle_of_repose",
        {{"form", std::string("planar")}, {"coarser_than", 250e-6}},

@@ -174,3 +174,24 @@ TEST_CASE("a block that slides on a liner shall wear it as Archard's closed form
   CHECK(figures["depth_rate_largest/x"] == test::approx(0.105).epsilon(1e-9));
   CHECK(figures["depth_rate_largest/z"] == test::approx(0.105).epsilon(1e-9));
 }
+
+TEST_CASE("grains that ride on a belt shall not wear it; those that lag do, by how much they lag") {
+  const double k = 1e-3;
+  const double hardness = 1e9;
+  const auto sensor = load_sensor("wear").make({{"min", Vec3{0, 0, -0.01}},
+                                                {"max", Vec3{0.1, 0.01, 0.01}},
+                                                {"cell", 0.01},
+                                                {"coefficient", k},
+                                                {"hardness", hardness}});
+  SyntheticScene world;
+  const Vec3 belt{2.0, 0.0, 0.0};
+  world.grains = {at({0.05, 0.005, 0.001}, belt), at({0.02, 0.005, 0.001}, 0.75 * belt)};
+  for (std::int32_t i = 0; i < 2; ++i) {
+    world.contacts.push_back(
+        {.i = i, .force = {0, 0, 4.0}, .branch = {0, 0, -0.001}, .wall_velocity = belt});
+  }
+  step(*sensor, world);
+  const Figures figures = summary_of(*sensor);
+  CHECK(figures["volume_rate"] == test::approx(k * 4.0 * 0.5 / hardness).epsilon(1e-9));
+  CHECK(figures["depth_rate_largest/x"] == test::approx(0.025).epsilon(1e-9));
+}

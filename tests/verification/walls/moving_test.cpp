@@ -32,6 +32,37 @@ TEST_CASE("a moving wall shall drive off a resting grain at (1 + e) times its sp
   }
 }
 
+TEST_CASE("sensors shall see how fast a wall moves where a grain touches it") {
+  // A plate that turns about z and rises: at the contact point w x r and the velocity.
+  WallRig rig(0.5, 0.3, k_diameter);
+  const Vec3 rise{0.05, 0.02, 0.1};
+  auto motions =
+      rig.motion("rotate", {{"pivot", Vec3{}}, {"spin_axis", Vec3{0, 0, 1}}, {"spin", 3.0}});
+  motions.push_back(std::move(rig.motion("translate", {{"velocity", rise}}).front()));
+  rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}}, std::move(motions));
+  auto dem = rig.make();
+  const double overlap = 2e-6;
+  const Vec3 place{0.04, 0.03, 0.5 * k_diameter - overlap};
+  const Vec3 beside = place + Vec3{k_diameter - overlap, 0, 0};
+  dem->insert(std::vector<NewGrain>{{.position = place, .diameter = k_diameter},
+                                    {.position = beside, .diameter = k_diameter}});
+  dem->neighbours();
+  const auto contacts = dem->contacts();
+  REQUIRE(contacts.size() == 3);
+  int walls = 0;
+  for (const auto& c : contacts) {
+    if (c.row_j >= 0) {
+      CHECK(norm(c.wall_velocity) == 0.0);
+      continue;
+    }
+    ++walls;
+    const double* at = dem->rows().position + 4 * c.row_i;
+    const Vec3 wanted = rise + Vec3{-3.0 * at[1], 3.0 * at[0], 0.0};
+    CHECK(norm(c.wall_velocity - wanted) < 1e-12);
+  }
+  CHECK(walls == 2);
+}
+
 TEST_CASE("a wall that sweeps through resting grains shall do what grains do that fly at a wall") {
   // The same in two frames of reference. The grains rest far from the wall, so that only the wall's
   // speed can tell that they will meet.

@@ -40,6 +40,8 @@ struct ContactColumns {
   std::span<const double> branch_x, branch_y, branch_z;  ///< [m] from the centre of i to that of j,
                                                          ///< or to the contact point at a wall
   std::span<const double> overlap;  ///< [m] < 0: apart, but within the reach of a law
+  /// [m/s] of a wall's surface at the contact point, 0 between grains
+  std::span<const double> wall_velocity_x, wall_velocity_y, wall_velocity_z;
 };
 
 /// Fluid cells, x fastest, count_x * count_y * count_z numbers each; empty for runs without fluid.
