@@ -14,6 +14,7 @@ import package  # noqa: F401
 import bed
 import cases
 import chart
+import effects
 import figures
 import index
 import kept
@@ -241,10 +242,22 @@ class ThesisRows(unittest.TestCase):
         row = self.row(None, limit=0.077)
         self.assertEqual((row.verdict(), row.band()), ("not run", "7.7 %"))
 
-    def test_a_sign_counts_beyond_twice_its_error(self):
-        self.assertEqual(Sign("t", "w", (), (1.0, 0.4)).verdict(), "as good")
-        self.assertEqual(Sign("t", "w", (), (1.0, 0.6)).verdict(), "worse")
-        self.assertEqual(Sign("t", "w", (), (-1.0, 0.1)).verdict(), "worse")
+    def test_a_sign_counts_where_it_is_told_from_noise(self):
+        def verdict(*change):
+            return Sign("t", "w", (), effects.Change(*change)).verdict()
+        self.assertEqual(verdict(1.0, 0.4), "as good")
+        self.assertEqual(verdict(1.0, 0.6), "not told from noise")
+        self.assertEqual(verdict(-1.0, 0.1), "worse")
+        # Of two seeds a change must exceed 12.7 errors.
+        self.assertEqual(verdict(1.0, 0.1, 1), "not told from noise")
+        self.assertEqual(verdict(-1.0, 0.1, 1), "not told from noise")
+        self.assertEqual(verdict(1.0, None, effects.FREE, 4, 2), "open: not steady")
+        self.assertEqual(verdict(1.0), "as good")
+        self.assertEqual(Sign("t", "w", ()).verdict(), "not run")
+
+    def test_the_page_of_the_thesis_counts_the_undecided(self):
+        rows = [Sign("t", "w", (), effects.Change(1.0, error)) for error in (0.1, 0.6, 0.7)]
+        self.assertEqual({"as good": 1, "undecided": 2}, {kind: n for kind, n in cases.load("thesis").counts_of(rows).items() if n})
 
 
 class Pages(unittest.TestCase):
@@ -348,11 +361,13 @@ class Points(unittest.TestCase):
             found = runs.Runs(plans.values(), folder, None)
             def change(**more):
                 return study_points.change(found, "any", {"output": "f", "input": "seed", **more})
-            self.assertEqual(-2.0, change()[0])
-            self.assertEqual((2.0, math.hypot(0.5, 0.5)), change(at={"a.b": "1 m/s"}))
-            self.assertEqual(-6.0, change(at={"a.b": "2 m/s"})[0])
+            self.assertEqual(-2.0, change().size)
+            held = change(at={"a.b": "1 m/s"})
+            self.assertEqual(2.0, held.size)
+            self.assertAlmostEqual(math.hypot(0.5, 0.5), held.error)
+            self.assertEqual(-6.0, change(at={"a.b": "2 m/s"}).size)
 
-    def test_the_error_of_replicates_is_their_scatter(self):
+    def test_the_error_of_replicates_is_the_scatter_of_their_changes(self):
         text = {"base": "../verification/box.yaml", "cases": {"a": {"x": 1}, "b": {"x": 2}}, "replicates": 3, "measure": {"f": "sensors.s.f"}}
         values = {"1": (1.0, 2.0, 3.0), "2": (12.0, 11.0, 13.0)}
         with tempfile.TemporaryDirectory() as folder, unittest.mock.patch("study_points.read", lambda _: text):
@@ -361,10 +376,42 @@ class Points(unittest.TestCase):
                 # No sensor tells an error: it has seen too few grains.
                 finished_run(folder, plan.name, {"s": {"f": (values[plan.settings["x"]][int(plan.settings["seed"]) - 1], None)}})
             found = runs.Runs(plans.values(), folder, None)
-            change, error = study_points.change(found, "any", {"output": "f", "input": "case", "from": "a", "to": "b"})
-            self.assertEqual(10.0, change)
-            # A standard deviation of 1 over three runs, on both sides.
-            self.assertAlmostEqual(math.sqrt(2.0 / 3.0), error)
+            change = study_points.change(found, "any", {"output": "f", "input": "case", "from": "a", "to": "b"})
+            # The seeds change by 11, 9 and 10: a standard deviation of 1 over three.
+            self.assertEqual((10.0, 2), (change.size, change.freedom))
+            self.assertAlmostEqual(math.sqrt(1.0 / 3.0), change.error)
+
+    def test_figures_that_are_not_steady_leave_a_sign_open(self):
+        text = {"base": "../verification/box.yaml", "vary": {"a.b": [2, 1]}, "measure": {"f": {"quantity": "sensors.s.f", "unit": "mm"}}}
+        over = {"output": "f", "input": "a.b", "then": "rises", "why": "so"}
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch("study_points.read", lambda _: text):
+            plans = dict(study_points.labelled("any"))
+            for plan in plans.values():
+                finished_run(folder, plan.name, {"s": {"f": (1e-3 * float(plan.settings["a.b"]), 1e-5)}},
+                             {"commits": ["abc1234"], "date": "2026-01-02"})
+            noted, page_file = figures.Figures(), pathlib.Path(folder) / "any.md"
+
+            def row(found):
+                sheet = page.Page("any")
+                study_points.add_sign(sheet, found, "any", over)
+                return sheet.text("Any", found, "how")
+
+            # From 1 to 2, in whatever order the study has them.
+            self.assertIn("| f rises with a.b | 1 ± 0.014 mm | rises: so | sign, beyond 2 errors | pass |", row(runs.Runs(plans.values(), folder, None)))
+            summary = pathlib.Path(folder) / plans["2"].name / "summary.json"
+            told = json.loads(summary.read_text())
+            told["sensors"]["s"]["f"] |= {"uncertainty": None, "no_error": "not steady"}
+            summary.write_text(json.dumps(told))
+            text_of_page = row(runs.Runs(plans.values(), folder, None, kept.Kept(), noted))
+            wanted = "| f rises with a.b | 1 mm | rises: so | sign, steady | open: 1 of 2 points not steady |"
+            self.assertIn(wanted, text_of_page)
+            self.assertIn("## What is undecided\n\n- f rises with a.b: 1 mm: open: 1 of 2 points not steady\n", text_of_page)
+            self.assertIn("## What has not been run\n\nNothing.", text_of_page)
+            # What is kept of a run whose folder is gone says it, too.
+            noted.write(pathlib.Path(folder) / "any.csv")
+            page_file.write_text(text_of_page)
+            gone = runs.Runs(plans.values(), "/nowhere", None, kept.Kept(page_file), figures.Figures(pathlib.Path(folder) / "any.csv"))
+            self.assertIn(wanted, row(gone))
 
     def test_where_no_sensor_tells_an_error_the_changes_at_other_levels_do(self):
         text = {"base": "../verification/box.yaml", "vary": {"mu": [1, 2, 3], "mu_r": [0, 1]}, "measure": {"f": "sensors.s.f"}}
@@ -375,16 +422,16 @@ class Points(unittest.TestCase):
                 finished_run(folder, plan.name, {"s": {"f": (100.0 * mu + rolling * (9.0 + mu), None)}})
             found = runs.Runs(plans.values(), folder, None)
             over = {"output": "f", "input": "mu_r", "then": "rises", "why": "so"}
-            change, error = study_points.change(found, "any", over)
+            change = study_points.change(found, "any", over)
             # 10, 11 and 12: a standard deviation of 1 over three.
-            self.assertEqual(11.0, change)
-            self.assertAlmostEqual(math.sqrt(1.0 / 3.0), error)
+            self.assertEqual((11.0, 2), (change.size, change.freedom))
+            self.assertAlmostEqual(math.sqrt(1.0 / 3.0), change.error)
             # Two levels of rolling friction tell no scatter of the changes over friction: a change, and no error of it.
-            change, error = study_points.change(found, "any", {**over, "input": "mu"})
-            self.assertEqual((201.0, 0.0), (change, error))
+            change = study_points.change(found, "any", {**over, "input": "mu"})
+            self.assertEqual((201.0, None), (change.size, change.error))
             sheet = page.Page("any")
             study_points.add_sign(sheet, found, "any", {**over, "input": "mu"})
-            self.assertIn("| f rises with mu: change over twice its error | inf | rises: so | none: no error of the change is known | - |",
+            self.assertIn("| f rises with mu | 201 | rises: so | none: no error of the change is known | - |",
                           sheet.text("Any", found, "how"))
 
 

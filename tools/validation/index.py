@@ -2,7 +2,7 @@
 pass or have not been run."""
 
 import stale
-from page import FOLDER
+from page import FOLDER, is_undecided
 
 JUDGED = ["figure", "ours", "published", "pass band", "verdict"]
 
@@ -25,7 +25,7 @@ def rows_of(text):
 
 
 def index():
-    table, failed, left = [], [], []
+    table, failed, undecided, left = [], [], [], []
     for page in sorted(FOLDER.glob("*.md")):
         if page.name == "README.md":
             continue
@@ -33,9 +33,11 @@ def index():
         title = text.splitlines()[0].lstrip("# ")
         rows = rows_of(text)
         count = {v: sum(r[-1] == v for r in rows) for v in ("pass", "FAIL", "open")}
+        count["undecided"] = sum(is_undecided(r[-1]) for r in rows)
         judged = " ".join(f"{n} {v}" for v, n in count.items() if n) or "-"
         table.append(f"| [{title}]({page.name}) | {len(rows) or '-'} | {judged} | {age_of(text)} |")
         failed += [f"| [{page.stem}]({page.name}) | {r[0]} | {r[1]} | {r[3]} |" for r in rows if r[-1] == "FAIL"]
+        undecided += [f"| [{page.stem}]({page.name}) | {r[0]} | {r[1]} | {r[-1]} |" for r in rows if is_undecided(r[-1])]
         if count["open"]:
             left.append(f"| [{page.stem}]({page.name}#what-has-not-been-run) | {count['open']} |")
     lines = ["# Checks against measurements, other codes and the thesis", "",
@@ -45,6 +47,9 @@ def index():
              "| page | figures beside published ones | with a pass band | engine |", "| --- | --- | --- | --- |", *table, ""]
     lines += ["## What does not pass", "", "Why, where it is known, stands on the page; experiments to it: `tools/validation/run experiments`.", "",
               *table_of("| page | figure | ours | pass band |", failed)]
+    if undecided:
+        lines += ["## What is undecided", "", "Runs are there, and do not tell it.", "",
+                  *table_of("| page | figure | ours | found |", undecided)]
     lines += ["## What has not been run", "", "What each run would cost stands on the page.", "",
               *table_of("| page | figures left |", left)]
     return "\n".join(lines)

@@ -26,8 +26,8 @@ class Kept:
         shown = (re.fullmatch(r"!\[(.*)\]\(pictures/(.*)\)", line) for line in lines[:begin])
         self._pictures = {found.group(1): found.group(2) for found in shown if found}
         self._bits = [line for line in lines if line.startswith("<!-- bits ")]
-        date = re.search(r"Runs of commit .*?(\d{4}-\d\d-\d\d)", "\n".join(lines[:6]))
-        self._date = date.group(1) if date else None
+        origin = re.search(r"Runs of commit .*", "\n".join(lines[:6]))
+        self._dates = set(re.findall(r"\d{4}-\d\d-\d\d", origin.group())) if origin else set()
 
     def row(self, *begin, among=""):
         """The cells of the row that begins like this and holds a figure, or None; `among`: a cell that it has besides."""
@@ -73,4 +73,4 @@ class Kept:
         return {commit for cells in self._runs.values() for commit in cells.get("commit", "not noted").split(", ")}
 
     def dates(self):
-        return {self._date} if self._date and self._runs else set()
+        return self._dates if self._runs else set()

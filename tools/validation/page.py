@@ -5,6 +5,7 @@ import itertools
 import re
 
 import chart
+import effects
 from kept import Kept
 from runs import ROOT, bits_at, cpu_name
 
@@ -28,6 +29,11 @@ def with_error(ours, unit=""):
     return as_text(value) + (f" ± {error:.2g}" if error else "") + (f" {unit}" if unit else "")
 
 
+def is_undecided(verdict):
+    """Whether a figure is there and says nothing of what was expected of it."""
+    return verdict.split(":")[0] in effects.UNDECIDED and verdict != "open"
+
+
 def figure_in(text):
     """(value, uncertainty or None) of a figure as text; None where it is none."""
     found = re.match(r"([-+]?[\d.]+(?:e[-+]?\d+)?)(?: ± ([\d.]+(?:e[-+]?\d+)?))?(?: |$)", text)
@@ -39,10 +45,10 @@ class Page:
         self.name, self._kept = name, kept or Kept()
         self._rows, self._notes, self._charts, self._body, self._taken = [], [], [], [], set()
 
-    def add(self, what, ours, published, low=None, high=None, unit="", band=None, why=None, keep=True):
-        """A figure; one without a band says why it has none. `keep`: whether the page's row of before stands for one that is not
+    def add(self, what, ours, published, low=None, high=None, unit="", band=None, why=None, verdict=None, keep=True):
+        """A figure; one without a band says why it has none. `verdict`: what another rule than a band of numbers says of it. `keep`: whether the page's row of before stands for one that is not
         there, as it does if its runs are the same. Returns what the row tells, (value, uncertainty or None), for a chart of it."""
-        is_judged = low is not None or high is not None
+        is_judged = low is not None or high is not None or verdict is not None
         if not is_judged and not why:
             raise ValueError(f"{what}: neither a band nor why there is none")
         if band is None and is_judged:
@@ -56,8 +62,8 @@ class Page:
             shown, verdict = NOT_RUN, "open"
         else:
             value = ours[0] if isinstance(ours, tuple) else ours
-            shown, verdict = with_error(ours, unit), "-"
-            if is_judged:
+            shown, verdict = with_error(ours, unit), verdict or "-"
+            if low is not None or high is not None:
                 inside = (low is None or value >= low) and (high is None or value <= high)
                 verdict = "pass" if inside else "FAIL"
         self._rows.append((what, shown, published, band or f"none: {why}", verdict))
@@ -110,7 +116,9 @@ class Page:
         if self._rows and runs.kept.changed:
             out += [f"Made otherwise today and not yet anew: {', '.join(runs.kept.changed)}. Their rows are from before.", ""]
         if self._rows:
+            undecided = [f"- {what}: {shown}: {seen}" for what, shown, *_, seen in self._rows if is_undecided(seen)]
             out += ["## What failed", "", *(self._left("FAIL") or ["Nothing."]), "",
+                    *(["## What is undecided", "", *undecided, ""] if undecided else []),
                     "## What has not been run", "", *(self._not_run(runs) or ["Nothing."]), ""]
         return "\n".join(out + runs_section(runs)) + "\n"
 

@@ -209,16 +209,25 @@ class Run:
         def find():
             found = self.summary["sensors"].get(sensor, {}).get(name)
             return None if not found or found["value"] is None else (found["value"], found["uncertainty"])
-        return self.read_off(sensor, name, find)
+        return self.read_off(sensor, name, find, self._no_error_told(sensor, name))
 
-    def read_off(self, source, name, find):
+    def no_error(self, sensor, name):
+        """Why a figure has no uncertainty, as a finished run or one that the page has kept says: "few grains", "not steady"; else ""."""
+        if not self.is_finished():
+            return self._figures.no_error(self.name, sensor, name) if self._kept.is_of(self) else ""
+        return self._no_error_told(sensor, name)
+
+    def _no_error_told(self, sensor, name):
+        return ((self.summary or {}).get("sensors", {}).get(sensor, {}).get(name) or {}).get("no_error", "")
+
+    def read_off(self, source, name, find, no_error=""):
         """What `find` finds in the files of a finished run, (value, uncertainty or None); of one that the page has kept, what it found
         then. None if there is nothing."""
         if not self.is_finished():
             return self._figures.of(self.name, source, name) if self._kept.is_of(self) else None
         found = find()
         if found:
-            self._figures.note(self.name, source, name, found)
+            self._figures.note(self.name, source, name, found, no_error)
         return found
 
     def series(self):

@@ -72,7 +72,7 @@ def rounded(text):
         return text
 
 
-VERDICT = re.compile(r"^(\S+) (rises|falls) (.*): (as expected|against the expectation|not told from noise|no change|not enough.*?)(?:: (.*))?$")
+VERDICT = re.compile(r"^(\S+) (rises|falls) (.*): (as expected|against the expectation|not told from noise|no change|open: \d+ of \d+ points not steady|not enough.*?)(?:: (.*))?$")
 
 
 def verdict_of(line):

@@ -23,7 +23,7 @@ def fill(page, runs):
         add_places(page, runs, study)
     draw(page, runs)
     page.note("Cells of 1.25 mm, 50 MPa, all sizes with dust where the row does not name one size. Bands: the sign that the "
-              "thesis shows. A sign counts when the change is larger than twice its standard error.")
+              "thesis shows. " + study_points.RULE)
 
 
 def add_places(page, runs, study):
@@ -46,7 +46,7 @@ def draw(page, runs):
             run = runs[study_points.plan_of("table_6_4_speed", label, settings, TO_ONE_SECOND).name]
             place = study_points.measured(run, text["measure"]["x_140"])
             if settings["emitters.feed.mass_flow"] == feed and place:
-                found.append((float(settings["bodies.belt.speed"].split()[0]), *place))
+                found.append((float(settings["bodies.belt.speed"].split()[0]), place[0], place[1] or 0.0))
         curves.append(Curve(f"ours, {feed}", [f[0] for f in found], [f[1] for f in found], [f[2] for f in found], is_points=True))
     page.chart("Where the stream falls, 140 mm below the belt", "belt speed [m/s]", "x - x_A [mm]",
                [*curves, published("throw in vacuum", [0.2, 0.4, 0.6, 0.8], [1e3 * u * (2 * 0.14 / 9.81) ** 0.5 for u in (0.2, 0.4, 0.6, 0.8)],

@@ -4,6 +4,7 @@ are. The same at full resolution: cases/belt.py."""
 import re
 import sys
 
+import study_points
 import study_runs
 from page import bits_line
 from runs import ROOT
@@ -34,7 +35,7 @@ def write(args):
     out = ["# Expected signs of the shipped studies", "", study_runs.written_by("signs", args.engine), ""]
     out += [f"Every study as shipped, but on the base `{study_runs.shown(BASE)}` (see its head for what is coarser "
             "there), so that signs can be looked at in minutes; digits do not hold.", ""]
-    out += ["A change counts when it exceeds twice its standard error.", "",
+    out += [study_points.RULE, "",
             "| study | expected | found | change | points | state |", "| --- | --- | --- | --- | --- | --- |"]
     tables = []
     against = 0

@@ -8,7 +8,7 @@ from kept import Kept
 from page import FOLDER
 from runs import one_of_each
 from thesis import chapter_3, chapter_4, chapter_5, chapter_6, explained
-from thesis.row import AS_GOOD, BETTER, NO_TRUTH, NOT_RUN, WORSE
+from thesis.row import AS_GOOD, BETTER, NO_TRUTH, NOT_RUN, UNDECIDED, WORSE
 
 import campaign_list
 import cases
@@ -97,20 +97,28 @@ def percent_of(cell):
     return float(told.group(1)) if told else None
 
 
+KINDS = {BETTER: (BETTER,), AS_GOOD: (AS_GOOD,), WORSE: (WORSE,), "undecided": UNDECIDED, NO_TRUTH: (NO_TRUTH,), "left": (NOT_RUN,)}
+
+
+def counts_of(rows):
+    """How many rows came out how, by the names of KINDS."""
+    return {kind: sum(row.verdict() in verdicts for row in rows) for kind, verdicts in KINDS.items()}
+
+
 def by_chapter(chapters):
     """How many rows of each chapter came out how."""
-    kinds = (BETTER, AS_GOOD, WORSE, NO_TRUTH, NOT_RUN)
-    return ["| chapter | " + " | ".join(kinds[:-1]) + " | left |", "| --- |" + " --- |" * len(kinds),
-            *(f"| {title} | " + " | ".join(str(sum(row.verdict() == kind for row in rows)) for kind in kinds) + " |"
+    return ["| chapter | " + " | ".join(KINDS) + " |", "| --- |" + " --- |" * len(KINDS),
+            *(f"| {title} | " + " | ".join(map(str, counts_of(rows).values())) + " |"
               for title, rows in chapters.items()), ""]
 
 
 def summary(rows):
-    count = {v: sum(row.verdict() == v for row in rows) for v in (BETTER, AS_GOOD, WORSE, NO_TRUTH, NOT_RUN)}
+    count = counts_of(rows)
     judged = count[BETTER] + count[AS_GOOD] + count[WORSE]
     share = f"{100 * (count[BETTER] + count[AS_GOOD]) / judged:.0f} % of the {judged} rows that are judged" if judged else "none yet"
     return ["**As good**: |ours - measured| <= |thesis - measured| + uncertainty of the measurement. **Better**: nearer than the "
-            "thesis's model. A sign is as good when the change is beyond twice its standard error the thesis's way. Bands are the "
+            "thesis's model. A sign is as good when the change goes the thesis's way and is told from noise: beyond twice its "
+            "standard error, or where few seeds tell that, beyond Student's t of so few; where it is not, it is undecided. Bands are the "
             "thesis's own limits: 5.7 % of the angle, 7.7 % of the time, 6.6 % of the pile. Where nothing was measured, nothing is "
             "judged; where the thesis gives no value of its model, as good is within the uncertainty or the band. A1 has no measurement: "
             "it is held against one sphere's analytic velocity, 0.158 m/s by Abraham's coefficient (the thesis prints 0.160), its "

@@ -1,6 +1,7 @@
 """Chapter 3: one sphere that settles."""
 
 from cases.settling_b import TEN_CATE
+from effects import Change
 from thesis.row import Row, Sign
 
 WATER = 0.158
@@ -81,7 +82,7 @@ def cost_of_interval(runs):
     fine, coarse = (runs[f"settling_b1_{k}"] for k in ("interval_10", "gidaspow"))
     ours = None
     if fine.is_finished() and coarse.is_finished():
-        ours = (fine.summary["cpu_s"] / coarse.summary["cpu_s"] - 1, None)
+        ours = Change(fine.summary["cpu_s"] / coarse.summary["cpu_s"] - 1)
     return Sign("Table 3.3", "B1: computing time of coupling interval 10 over that of 100, less 1", (fine.name, coarse.name), ours,
                 "19.1 (42,489 s over 2112 s)")
 
@@ -104,4 +105,4 @@ def further_off(worse, better, figure, truth):
     if None in found:
         return None
     errors = [abs(value - truth) for value, _ in found]
-    return errors[0] - errors[1], sum(error or 0.0 for _, error in found)
+    return Change(errors[0] - errors[1], sum(error or 0.0 for _, error in found) or None)

@@ -3,6 +3,7 @@
 import bed
 from bed import LITRES_PER_MINUTE, VESSEL_SECTION
 from cases.fluidised_studies import point
+from effects import Change
 from runs import read_table
 from thesis.row import Row, Sign
 
@@ -84,10 +85,10 @@ def signs(runs):
     grains = {label: runs[point("fluidised_bed_grains", label).name] for label in ("distribution", "mono_0_6_mm")}
     fine, coarse = (grains[label].figure("u_mf", "falling/by_pressure") for label in ("distribution", "mono_0_6_mm"))
     return [Sign("Table A.4", "penetration: rising less falling flow at 40 l/min [mbar]", (bed.RAMP, bed.WIDE),
-                 (up[0] - down[0], None) if up and down else None, "+1.2 (measured)", f"rising: {COLUMN}; falling: {WIDE}"),
+                 Change(up[0] - down[0]) if up and down else None, "+1.2 (measured)", f"rising: {COLUMN}; falling: {WIDE}"),
             Sign("5.5", "minimum fluidisation, 0.6 mm less distribution [m/s]",
                  (grains["distribution"].name, grains["mono_0_6_mm"].name),
-                 (coarse[0] - fine[0], (coarse[1] or 0) + (fine[1] or 0)) if fine and coarse else None, "rises (1.35 by Ergun)", WIDE),
+                 Change(coarse[0] - fine[0], (coarse[1] or 0) + (fine[1] or 0) or None) if fine and coarse else None, "rises (1.35 by Ergun)", WIDE),
             *depth(runs)]
 
 

@@ -68,7 +68,7 @@ def loose_dust(runs):
     out = []
     for case, seeds in found.items():
         ours = study_points.mean_over_seeds([study_points.measured(run, text["measure"]["loose"]) for run in seeds])
-        ours = ours and (1e6 * ours[0], 1e6 * ours[1])
+        ours = ours and (1e6 * ours[0], 1e6 * (ours[1] or 0.0))
         out.append(Row("Figures 6.28 to 6.33", f"dust off the stream, {case} [mg/m3]", tuple(run.name for run in seeds[:1]) + (f"... {len(seeds)} runs",),
                        ours, why="the thesis shows pictures", differs=FEED))
     return out

@@ -2,7 +2,12 @@
 
 import dataclasses
 
+import effects
+
 BETTER, AS_GOOD, WORSE, NOT_RUN, NO_TRUTH = "better", "as good", "worse", "not run", "no measurement"
+# Of a sign: its figures are there and do not tell it.
+NOT_STEADY = "open: not steady"
+UNDECIDED = (effects.NOISE, effects.NO_CHANGE, NOT_STEADY)
 
 
 @dataclasses.dataclass
@@ -51,27 +56,34 @@ class Row:
 
 @dataclasses.dataclass
 class Sign:
-    """A sign that the thesis shows: ours is the change with its error, positive where the sign is the thesis's."""
+    """A sign that the thesis shows: ours is the effects.Change, positive where the sign is the thesis's."""
 
     where: str
     what: str
     runs: tuple
-    ours: tuple = None
+    ours: effects.Change = None
     shown: str = ""
     differs: str = "none"
 
     def verdict(self):
         if self.ours is None:
             return NOT_RUN
-        change, error = self.ours
-        return AS_GOOD if change > 2 * (error or 0.0) else WORSE
+        kind = self.ours.kind()
+        return {effects.AS_EXPECTED: AS_GOOD, effects.AGAINST: WORSE, effects.OPEN: NOT_STEADY}.get(kind, kind)
+
+    def band(self):
+        if self.ours is None:
+            return "sign, told from noise"
+        if self.ours.unsteady:
+            return f"sign; {self.ours.unsteady_text()}"
+        return "sign; no error is known" if self.ours.error is None else f"sign, beyond {effects.clear_limit(self.ours.freedom):.3g} errors"
 
     def cells(self, cost):
         change = "-"
         if self.ours:
-            change = f"{self.ours[0]:+.3g}" + (f" ± {self.ours[1]:.2g}" if self.ours[1] else "")
+            change = f"{self.ours.size:+.3g}" + (f" ± {self.ours.error:.2g}" if self.ours.error else "")
         return [self.where, self.what, "-", self.shown, change, self.verdict(),
-                "sign, beyond twice its error", self.differs, ", ".join(self.runs), cost]
+                self.band(), self.differs, ", ".join(self.runs), cost]
 
 
 def with_uncertainty(value, uncertainty):
