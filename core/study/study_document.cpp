@@ -79,12 +79,30 @@ Json expectations_json(const Spec& spec, const Results& results) {
   return list;
 }
 
+/// "1 of 2 points not steady" of so many; nothing where all are.
+std::string unsteady_of(std::size_t unsteady, std::size_t of) {
+  Coverage coverage;
+  coverage.used = of;
+  coverage.unsteady = unsteady;
+  return unsteady_text(coverage);
+}
+
+/// Why a mean has no error; nothing where it has one. The levels of a sample have none of their
+/// own: how they scatter about a line tells its error.
+std::string why_no_error(const LevelMean& mean, bool is_scattered) {
+  if (mean.unsteady > 0) return unsteady_of(mean.unsteady, mean.points);
+  return mean.error < 0.0 && !is_scattered ? "no error is known" : "";
+}
+
 /// Names beside means with their errors.
 Json rows_json(const MainEffect& effect, const Results& results) {
   Json rows = Json::array();
   for (const LevelMean& l : effect.levels) {
     if (l.points == 0) continue;
-    rows.push_back({{"name", l.label}, {"value", l.mean}, {"error", known(l.error)}});
+    rows.push_back({{"name", l.label},
+                    {"value", l.mean},
+                    {"error", known(l.error)},
+                    {"no_error", why_no_error(l, effect.is_scattered)}});
   }
   const OutputColumn& output = results.plan.outputs[effect.output];
   return {{"title", output.name},
@@ -113,7 +131,9 @@ Json lines_of_others(const MainEffect& effect, const Results& results) {
   constexpr std::size_t k_max = 5;
   const std::size_t axis = results.plan.inputs[effect.input].axis;
   struct LineSum {
-    double sum = 0.0, count = 0.0;
+    double sum = 0.0;
+    std::size_t count = 0, unsteady = 0;
+    [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
   };
   std::map<std::vector<std::size_t>, std::pair<std::string, std::map<double, LineSum>>> groups;
   for (std::size_t n = 0; n < results.outcomes.size(); ++n) {
@@ -126,49 +146,62 @@ Json lines_of_others(const MainEffect& effect, const Results& results) {
     name = others_of(results, point, axis);
     LineSum& at = line[point.inputs[effect.input].number];
     at.sum += *o.outputs[effect.output].value;
-    at.count += 1.0;
+    ++at.count;
+    if (is_unsteady(o.outputs[effect.output])) ++at.unsteady;
   }
   Json lines = Json::array();
   if (groups.size() < 2 || groups.size() > k_max) return lines;
   for (const auto& [key, group] : groups) {
-    Json line = {{"name", group.first}, {"x", Json::array()}, {"y", Json::array()}};
+    Json line = {{"name", group.first},
+                 {"x", Json::array()},
+                 {"y", Json::array()},
+                 {"no_error", Json::array()}};
     for (const auto& [x, sum] : group.second) {
       line["x"].push_back(x);
-      line["y"].push_back(sum.sum / sum.count);
+      line["y"].push_back(sum.mean());
+      line["no_error"].push_back(unsteady_of(sum.unsteady, sum.count));
     }
     lines.push_back(std::move(line));
   }
   return lines;
 }
 
-/// A plot for a page: the means with one standard error to either side, and the lines behind them.
-Json effect_plot(const MainEffect& effect, const Results& results) {
-  const InputColumn& input = results.plan.inputs[effect.input];
-  const OutputColumn& output = results.plan.outputs[effect.output];
+/// The means with one standard error to either side, or why there is none.
+Json mean_line(const MainEffect& effect) {
   Json mean = {{"name", effect.is_scattered ? "runs" : "mean"},
                {"x", Json::array()},
                {"y", Json::array()},
                {"low", Json::array()},
-               {"high", Json::array()}};
+               {"high", Json::array()},
+               {"no_error", Json::array()}};
   if (effect.is_scattered) mean["kind"] = "points";
   mean["width"] = 3.0;
-  bool has_errors = true;
+  bool has_errors = false;
   double last = 0.0;
   for (const LevelMean& l : effect.levels) {
     if (l.points == 0) continue;
     // A plot needs one value per place.
     if (!mean["x"].empty() && l.input <= last) continue;
     last = l.input;
-    has_errors = has_errors && l.error >= 0.0;
+    has_errors = has_errors || l.error >= 0.0;
     mean["x"].push_back(l.input);
     mean["y"].push_back(l.mean);
-    mean["low"].push_back(l.mean - l.error);
-    mean["high"].push_back(l.mean + l.error);
+    mean["low"].push_back(l.error >= 0.0 ? Json(l.mean - l.error) : Json(nullptr));
+    mean["high"].push_back(l.error >= 0.0 ? Json(l.mean + l.error) : Json(nullptr));
+    mean["no_error"].push_back(why_no_error(l, effect.is_scattered));
   }
   if (!has_errors || effect.is_scattered) {
     mean.erase("low");
     mean.erase("high");
   }
+  return mean;
+}
+
+/// A plot for a page: the means, and the lines behind them.
+Json effect_plot(const MainEffect& effect, const Results& results) {
+  const InputColumn& input = results.plan.inputs[effect.input];
+  const OutputColumn& output = results.plan.outputs[effect.output];
+  Json mean = mean_line(effect);
   Json lines = Json::array();
   if (!mean["x"].empty()) lines.push_back(std::move(mean));
   if (!effect.is_scattered) {
@@ -278,7 +311,7 @@ Json points_json(const Results& results) {
       const OutputValue v = k < o.outputs.size() ? o.outputs[k] : OutputValue{};
       row["outputs"].push_back({{"value", v.value ? Json(*v.value) : Json(nullptr)},
                                 {"error", known(v.error)},
-                                {"unsteady", is_unsteady(v)}});
+                                {"no_error", v.no_error}});
     }
     rows.push_back(std::move(row));
   }

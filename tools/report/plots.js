@@ -1,7 +1,8 @@
 'use strict';
 // Plots with uPlot, for any page. `Dust.plot(parent, {title, sensor, x_label, y_label, unit, note, lines})` adds one
-// figure; lines: [{name, x, y, low, high, kind, bars, colour, dash, width}] with x ascending, null for a gap. `low` and
-// `high` are a band, or bars with `bars` or where the kind is 'points'; a 'reference' is dashed and stands behind.
+// figure; lines: [{name, x, y, low, high, no_error, kind, bars, colour, dash, width}] with x ascending, null for a gap. `low`
+// and `high` are a band, or bars with `bars`, where the kind is 'points' or marks have no error; a 'reference' is dashed and stands behind.
+// `no_error`: why a mark has no error, '' where it has one; such marks are hollow.
 // `band: [n, m]` fills between two of the lines. `path: true` lets x run down and y to the right, both in `unit` and true
 // to scale; `caption` and `beside` (nodes) then stand at its side. `Dust.readable_plot` takes numbers in SI units and
 // shows them in the unit that reads best.
@@ -11,7 +12,10 @@
   const flat_height = 246;
   // Labels of an axis of decades: the powers of ten.
   const decades = (u, splits) => splits.map((v) => (v > 0 && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? Dust.number(v) : ''));
-  const has_bars = (line) => Boolean(line.low) && (line.bars || line.kind === 'points');
+  // Why marks of a line have no error, by their x.
+  const reasons = (line) => new Map((line.no_error || []).map((why, k) => [line.x[k], why]));
+  // Between marks without an error a band would have gaps, and leave out a mark between two such.
+  const has_bars = (line) => Boolean(line.low) && (line.bars || line.kind === 'points' || (line.no_error || []).some(Boolean));
 
   const bars_hook = (bars, is_path) => (u) => {
     const pen = u.ctx;
@@ -28,6 +32,27 @@
       }
       pen.stroke();
     }
+  };
+
+  // Hollow marks over those that uPlot has filled.
+  const hollow_hook = (lines, places, series, is_path) => (u) => {
+    const pen = u.ctx;
+    lines.forEach((line, n) => {
+      const {stroke, points} = series[places[n]];
+      const why = reasons(line);
+      for (let k = 0; k < u.data[0].length; ++k) {
+        const value = u.data[places[n]][k];
+        if (!why.get(u.data[0][k]) || value === null || value === undefined) continue;
+        const along = u.valToPos(u.data[0][k], 'x', true), up = u.valToPos(value, 'y', true);
+        pen.beginPath();
+        pen.arc(...(is_path ? [up, along] : [along, up]), devicePixelRatio * (points.size / 2 + 0.6), 0, 2 * Math.PI);
+        pen.fillStyle = Dust.colour('paper');
+        pen.fill();
+        pen.strokeStyle = stroke;
+        pen.lineWidth = 1.6 * devicePixelRatio;
+        pen.stroke();
+      }
+    });
   };
 
   // What uPlot needs of the lines: series with their bands and bars, and an entry of the key for each.
@@ -52,7 +77,7 @@
       keys.push(Dust.el('span', {}, swatch, Dust.words(line.name)));
     }
     if (band) bands.push({series: [places[band[1]], places[band[0]]], fill: Dust.colour('tone1') + '47'});
-    return {series, bands, bars, keys};
+    return {series, bands, bars, keys, places};
   };
 
   // Size of a path true to scale in the room there is, and its scales.
@@ -72,13 +97,15 @@
     const has_errors = (line) => Boolean(line.low) && line.low.some((v, k) => Number.isFinite(v) && v !== line.y[k]);
     if (lines.some((line) => has_errors(line) && !has_bars(line))) words.append(' Band: one standard error to either side.');
     if (lines.some((line) => has_errors(line) && has_bars(line))) words.append(' Bars: one standard error to either side.');
+    const doubts = [...new Set(lines.flatMap((line) => line.no_error || []).filter(Boolean).map((why) => why.replace(/^\d+ of \d+ /, '')))];
+    if (doubts.length) words.append(` Hollow marks: ${doubts.join('; ')}.`);
     const key = Dust.el('div', {class: 'legend', 'aria-hidden': lines.length > 1 ? 'false' : 'true'});
     const file = Dust.file_name(sensor + ' ' + title);
     const as_csv = Dust.el('button', {type: 'button', 'aria-label': `Numbers of ${Dust.sentence(title)} as CSV`}, 'CSV');
     as_csv.addEventListener('click', () => {
       const heads = lines.flatMap((line) => [`${line.name}: ${x_label}`, `${line.name}: ${y_label}${unit && !y_label.includes(unit) ? ', ' + unit : ''}`,
-        ...(line.low ? [`${line.name}: low`, `${line.name}: high`] : [])]);
-      const columns = lines.flatMap((line) => [line.x, line.y, ...(line.low ? [line.low, line.high] : [])]);
+        ...(line.low ? [`${line.name}: low`, `${line.name}: high`] : []), ...((line.no_error || []).some(Boolean) ? [`${line.name}: no error`] : [])]);
+      const columns = lines.flatMap((line) => [line.x, line.y, ...(line.low ? [line.low, line.high] : []), ...((line.no_error || []).some(Boolean) ? [line.no_error] : [])]);
       Dust.save(file + '.csv', new Blob([Dust.csv(heads, columns)], {type: 'text/csv'}));
     });
     const as_png = Dust.el('button', {type: 'button', 'aria-label': `Picture of ${Dust.sentence(title)} as PNG`}, 'PNG');
@@ -97,7 +124,7 @@
         ticks: {stroke: Dust.colour('line'), width: 1, size: 5}, font: '11px ' + Dust.colour('sans'),
         values: (u, splits) => splits.map((v) => (v === null ? '' : Dust.number(v)))};
       const named = {...axis, labelSize: 18, labelGap: 0, labelFont: axis.font};
-      const {series, bands, bars, keys} = dressed(lines, band), size = size_of();
+      const {series, bands, bars, keys, places} = dressed(lines, band), size = size_of();
       const reading = Dust.el('span', {class: 'reading'});
       key.replaceChildren(...keys, reading);
       holder.replaceChildren();
@@ -106,15 +133,15 @@
         : [{...named, size: 28, label: x_label, ...(is_geometric ? {values: decades} : {})}, {...axis, size: width_of}];
       return new uPlot({width: size.width, height: size.height, series, bands, padding: path ? [0, 18, 10, 0] : [10, 18, 0, 0],
         legend: {show: false}, cursor: {points: {show: false}, drag: {x: !path, y: false}}, scales, axes,
-        hooks: {draw: [bars_hook(bars, path)], setCursor: [(u) => {
+        hooks: {draw: [bars_hook(bars, path), hollow_hook(lines, places, series, path)], setCursor: [(u) => {
           const k = u.cursor.idx;
           reading.textContent = k === null || k === undefined ? '' : `at ${Dust.number(u.data[0][k])} (${x_label})`;
           if (k === null || k === undefined) return;
           let at = 1;
           lines.forEach((line, n) => {
-            const value = u.data[at][k];
+            const value = u.data[at][k], why = reasons(line).get(u.data[0][k]);
             at += line.low ? 3 : 1;
-            keys[n].lastChild.textContent = Dust.words(line.name) + (value === null || value === undefined ? '' : ': ' + Dust.number(value) + (unit ? ' ' + unit : ''));
+            keys[n].lastChild.textContent = Dust.words(line.name) + (value === null || value === undefined ? '' : ': ' + Dust.number(value) + (unit ? ' ' + unit : '') + (why ? ` (${why})` : ''));
           });
         }]}}, data, holder);
     };

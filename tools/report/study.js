@@ -67,24 +67,28 @@
     return Dust.section('calibration', 'The answer', parts);
   };
 
+  const told_from_noise = 'A change is told from noise when it exceeds twice its standard error, or where few seeds tell that, Student\u2019s t of so few: 12.7 errors of two, 4.3 of three. '
+    + 'It is open where points are not steady.';
+
   Dust.sections.expectations = ({expectations}) => {
     if (!expectations.length) return null;
     const count = (kind) => expectations.filter((e) => e.verdict === kind).length;
     const look = {as_expected: 'good', against: 'wrong'};
     const rows = expectations.map((e) => [`${Dust.words(e.output)} ${e.then}`, (e.from ? `from ${e.from} to ${e.to}` : `with ${e.input}`) + (e.at ? ` ${e.at}` : ''), look[e.verdict] ? Dust.strong(e.text, look[e.verdict]) : e.text, e.why]);
-    return Dust.section('expectations', 'Expected signs', p({}, `${count('as_expected')} of ${expectations.length} are as expected, ${count('against')} against. A change counts as told from noise when it exceeds twice its standard error.`),
+    return Dust.section('expectations', 'Expected signs', p({}, `${count('as_expected')} of ${expectations.length} are as expected, ${count('against')} against, ${count('open')} undecided. `, told_from_noise),
       Dust.table([{title: 'Expected'}, {title: 'When'}, {title: 'Found'}, {title: 'Why'}], rows, {label: 'Expected signs'}));
   };
 
   Dust.sections.effects = ({effects}) => {
     if (!effects) return null;
     const {columns, rows} = effects.table;
-    const size = (cell, unit) => amount(cell.change, cell.error, unit) + (cell.coverage ? '\u202f*' : '');
-    const is_whole = rows.every((r) => r.cells.every((cell) => !cell || !cell.coverage));
+    const size = (cell, unit) => amount(cell.change, cell.error, unit) + (cell.coverage ? '\u202f*' : '') + (cell.unsteady ? '\u202f†' : '');
+    const any = (what) => rows.some((r) => r.cells.some((cell) => cell && cell[what]));
     const table = columns.length ? [Dust.table([{title: 'Change of'}, ...columns.map((c) => ({number: true,
       title: `over ${Dust.words(c.name)} ${Dust.number(c.from)} to ${Dust.number(c.to)}${Dust.is_bare(c.unit) ? '' : ' ' + c.unit}`}))],
     rows.map((r) => [Dust.words(r.output), ...r.cells.map((cell) => (!cell ? dash : cell.is_clear ? Dust.strong(size(cell, r.unit)) : size(cell, r.unit)))]), {label: 'Main effects'}),
-    p({class: 'note'}, 'From the smallest value to the largest, with one standard error; bold: more than twice that.' + (is_whole ? '' : ' *: points are missing; the change is over what finished at both values.'))] : [];
+    p({class: 'note'}, 'From the smallest value to the largest, with one standard error where one is known; bold: told from noise.' + (any('coverage') ? ' *: points are missing; the change is over what finished at both values.' : '')
+      + (any('unsteady') ? ' †: of points that are not steady.' : ''))] : [];
     const parts = effects.outputs.flatMap((output) => {
       const grid = el('div', {class: 'grid'});
       for (const r of output.rows) grid.append(row_figure(r));
@@ -94,16 +98,16 @@
       }));
       return [el('h3', {}, Dust.words(output.name), el('small', {}, output.quantity + (output.minus ? ' − ' + output.minus : ''))), grid];
     });
-    return Dust.section('effects', 'Main effects', p({}, 'Each mark is the mean over the runs with that level, of the combinations of the other inputs that finished at every level. Errors: from replicates where there are any, otherwise from what the sensors tell of themselves.'),
+    return Dust.section('effects', 'Main effects', p({}, 'Each mark is the mean over the runs with that level, of the combinations of the other inputs that finished at every level. Errors: from replicates where there are any, otherwise from what the sensors tell of themselves. A hollow mark has no error: none is known, or its points are not steady.'),
       table, parts);
   };
-  const covered = ({coverage}) => (coverage ? ` (${coverage})` : '');
+  const covered = ({coverage, unsteady}) => [coverage, unsteady].filter(Boolean).map((text) => ` (${text})`).join('');
   // Names beside means with their errors, as bars on one scale.
-  const row_figure = ({title, unit, input, rows, coverage}) => {
+  const row_figure = ({title, unit, input, rows, coverage, unsteady}) => {
     const largest = Math.max(...rows.map((r) => Math.abs(r.value) + (r.error || 0)), 1e-300);
     return el('figure', {}, Dust.table([{title: Dust.words(input)}, {title: with_unit(title, unit), number: true}, {title: ''}],
-      rows.map((r) => [plain(r.name), Dust.value(r.value, r.error === null ? -1 : r.error), Dust.error_bar(Math.abs(r.value) / largest, (r.error || 0) / largest, '')]), {look: 'bars', label: `${title} by ${input}`}),
-    el('figcaption', {}, el('b', {}, Dust.sentence(title) + '.'), ` Mean against ${Dust.words(input)}${covered({coverage})}.`));
+      rows.map((r) => [plain(r.name), Dust.value(r.value, r.error === null ? -1 : r.error) + (r.no_error ? ` (${r.no_error})` : ''), Dust.error_bar(Math.abs(r.value) / largest, (r.error || 0) / largest, r.no_error ? 'hollow' : '')]), {look: 'bars', label: `${title} by ${input}`}),
+    el('figcaption', {}, el('b', {}, Dust.sentence(title) + '.'), ` Mean against ${Dust.words(input)}${covered({coverage, unsteady})}.`));
   };
 
   Dust.sections.points = ({points}) => {
@@ -111,7 +115,7 @@
     const is_text = (k) => points.rows.some((r) => /[a-z]/i.test(String(r.inputs[k]).replace(/e[+-]?\d/i, '')));
     const input = (c, k) => ({...n(c), number: !is_text(k)});
     const rows = points.rows.map((r, k) => [r.status === 'finished' ? el('a', {href: `points/${r.hash}/report.html`}, String(k + 1)) : String(k + 1), ...r.inputs.map(plain), String(r.seed),
-      ...r.outputs.map((o) => (o.value === null ? dash : o.error === null ? Dust.number(o.value, 5) : Dust.value(o.value, o.error))), r.status + (r.reason ? ': ' + r.reason : ''), r.wall_s === null ? '' : Dust.duration(r.wall_s)]);
+      ...r.outputs.map((o) => (o.value === null ? dash : o.error === null ? Dust.number(o.value, 5) + Dust.why_no_error(o) : Dust.value(o.value, o.error))), r.status + (r.reason ? ': ' + r.reason : ''), r.wall_s === null ? '' : Dust.duration(r.wall_s)]);
     return Dust.section('points', 'All points', Dust.table([{title: 'Point'}, ...points.inputs.map(input), {title: 'Seed', number: true}, ...points.outputs.map(n), {title: 'Status'}, {title: 'Time', number: true}], rows, {label: 'All points'}),
       p({class: 'note'}, "The numbers lead to the runs' own reports. The same table stands in study.csv, and as columns in study.h5."));
   };

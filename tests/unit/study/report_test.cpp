@@ -29,6 +29,50 @@ class Lines final : public Evaluator {
   }
 };
 
+/// Speeds 1 and 2 m/s by angles 0 and 1 deg: x = 10 (speed - 1) + angle, expected to rise with
+/// speed; replicates lie 0.2 apart.
+struct TwoAxes {
+  Spec spec;
+  Plan plan;
+  std::vector<Outcome> outcomes;
+
+  explicit TwoAxes(std::uint64_t replicates = 1) {
+    spec.name = "made";
+    spec.axes = {{AxisKind::values, {"belt.speed"}, std::vector<Level>(2), {}},
+                 {AxisKind::values, {"belt.angle"}, std::vector<Level>(2), {}}};
+    Expectation expectation;
+    expectation.output = "x";
+    expectation.input = "belt.speed";
+    expectation.then = "rises";
+    spec.expectations = {expectation};
+    plan.inputs = {{"belt.speed", "m/s", false, 0}, {"belt.angle", "deg", false, 1}};
+    plan.outputs = {{"x", "sensors.s.x", "", "mm", 1.0, true}};
+    for (std::size_t s = 0; s < 2; ++s) {
+      for (std::size_t a = 0; a < 2; ++a) {
+        for (std::uint64_t seed = 0; seed < replicates; ++seed) add(s, a, seed);
+      }
+    }
+  }
+
+  void add(std::size_t s, std::size_t a, std::uint64_t seed) {
+    const auto speed = static_cast<double>(s);
+    const auto angle = static_cast<double>(a);
+    Point point;
+    point.levels = {s, a};
+    point.seed = seed;
+    point.inputs = {{1.0 + speed, std::to_string(s + 1)}, {angle, std::to_string(a)}};
+    plan.points.push_back(point);
+    Outcome outcome;
+    outcome.status = Status::finished;
+    outcome.outputs = {{10.0 * speed + angle + 0.2 * static_cast<double>(seed), 0.6}};
+    outcomes.push_back(outcome);
+  }
+
+  [[nodiscard]] nlohmann::json document() const {
+    return study_document(spec, {plan, outcomes}, nullptr);
+  }
+};
+
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -74,28 +118,8 @@ TEST_CASE("the report of a calibration shall draw the crossing and ask no other 
 }
 
 TEST_CASE("the report of a study shall draw every effect with the lines it is made of") {
-  Spec spec;
-  spec.name = "made";
-  spec.axes = {{AxisKind::values, {"belt.speed"}, std::vector<Level>(2), {}},
-               {AxisKind::values, {"belt.angle"}, std::vector<Level>(2), {}}};
-  Plan plan;
-  plan.inputs = {{"belt.speed", "m/s", false, 0}, {"belt.angle", "deg", false, 1}};
-  plan.outputs = {{"x", "sensors.s.x", "", "mm", 1.0, true}};
-  std::vector<Outcome> outcomes;
-  for (std::size_t s = 0; s < 2; ++s) {
-    for (std::size_t a = 0; a < 2; ++a) {
-      Point point;
-      point.levels = {s, a};
-      point.inputs = {{1.0 + static_cast<double>(s), std::to_string(s + 1)},
-                      {static_cast<double>(a), std::to_string(a)}};
-      plan.points.push_back(point);
-      Outcome outcome;
-      outcome.status = Status::finished;
-      outcome.outputs = {{10.0 * static_cast<double>(s) + static_cast<double>(a), 0.6}};
-      outcomes.push_back(outcome);
-    }
-  }
-  const auto document = study_document(spec, {plan, outcomes}, nullptr);
+  TwoAxes made;
+  const auto document = made.document();
   CHECK(document["calibration"].is_null());
   CHECK(document["facts"]["finished"] == 4);
   const auto& effects = document["effects"];
@@ -116,11 +140,44 @@ TEST_CASE("the report of a study shall draw every effect with the lines it is ma
   CHECK(document["points"]["rows"].size() == 4);
 
   // One point is missing: what it would be compared with is left out, and both are told.
-  outcomes[3] = {.status = Status::failed, .reason = "broken", .wall_s = 0.0, .outputs = {}};
-  const auto less = study_document(spec, {plan, outcomes}, nullptr);
+  made.outcomes[3] = {.status = Status::failed, .reason = "broken", .wall_s = 0.0, .outputs = {}};
+  const auto less = made.document();
   const auto& gap = less["effects"]["outputs"][0]["plots"][0];
   CHECK(gap["lines"][0]["y"] == nlohmann::json({0.0, 10.0}));
   CHECK(gap["coverage"] ==
         "1 of 4 points is missing, 1 left out: nothing finished to compare them with");
   CHECK(less["effects"]["table"]["rows"][0]["cells"][0]["coverage"] == gap["coverage"]);
+}
+
+TEST_CASE("the report of a study shall say which marks have no error, and why") {
+  TwoAxes made;
+  made.outcomes[2].outputs[0] = {10.0, -1.0, "not steady"};
+  const auto document = made.document();
+  const auto& plot = document["effects"]["outputs"][0]["plots"][0];
+  // Where one point tells none, no level's is known; of one it is said that it has not settled.
+  CHECK_FALSE(plot["lines"][0].contains("low"));
+  CHECK(plot["lines"][0]["no_error"] ==
+        nlohmann::json({"no error is known", "1 of 2 points not steady"}));
+  CHECK(plot["lines"][1]["no_error"] == nlohmann::json({"", "1 of 1 points not steady"}));
+  CHECK(plot["lines"][2]["no_error"] == nlohmann::json({"", ""}));
+  CHECK(plot["unsteady"] == "1 of 4 points not steady");
+  CHECK(document["effects"]["table"]["rows"][0]["cells"][0]["unsteady"] == plot["unsteady"]);
+  CHECK(document["points"]["rows"][2]["outputs"][0]["no_error"] == "not steady");
+  CHECK(document["points"]["rows"][1]["outputs"][0]["no_error"] == "");
+  REQUIRE(document["expectations"].size() == 1);
+  CHECK(document["expectations"][0]["verdict"] == "open");
+  CHECK(document["expectations"][0]["text"] == "open: 1 of 4 points not steady: 10 mm");
+}
+
+TEST_CASE("marks with errors beside those without shall keep theirs in the report of a study") {
+  // Two replicates of each point tell the noise; of one level they have not settled.
+  TwoAxes made(2);
+  made.outcomes[4].outputs[0].error = -1.0;
+  made.outcomes[4].outputs[0].no_error = "not steady";
+  const auto document = made.document();
+  const auto& mean = document["effects"]["outputs"][0]["plots"][0]["lines"][0];
+  CHECK(mean["low"][0].is_number());
+  CHECK(mean["low"][1].is_null());
+  CHECK(mean["high"][1].is_null());
+  CHECK(mean["no_error"] == nlohmann::json({"", "1 of 4 points not steady"}));
 }
