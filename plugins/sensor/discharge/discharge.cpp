@@ -100,12 +100,8 @@ class Discharge final : public sdk::Sensor {
   void observe(const sdk::WorldView& world) override {
     const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
-      const sdk::Path path = sdk::path_of(world, i);
-      const sdk::Passage way = sdk::passage(dot(path.before - p_.centre, p_.direction),
-                                            dot(path.now - p_.centre, p_.direction));
+      const sdk::Passage way = passage_of(world, i);
       if (way.direction == 0) continue;
-      const sdk::Vec3 off = path.at(way.fraction) - p_.centre;
-      if (dot(off, off) > p_.reach * p_.reach) continue;
       const double mass = way.direction * g.weight[i] * g.mass[i];
       sums_[k_mass] += mass;
       sums_[k_number] += way.direction * g.weight[i];
@@ -176,6 +172,18 @@ class Discharge final : public sdk::Sensor {
   /// passage [s], the first below 0 while there is none.
   enum Sum { k_mass, k_number, k_moment, k_volume, k_last, k_first, k_sums };
 
+  /// Through the hole; none beside it.
+  [[nodiscard]] sdk::Passage passage_of(const sdk::WorldView& world, std::size_t i) const {
+    sdk::Passage way;
+    const bool is_through = sdk::any_way(world, i, [&](const sdk::Path& path) {
+      way = sdk::passage(dot(path.before - p_.centre, p_.direction),
+                         dot(path.now - p_.centre, p_.direction));
+      if (way.direction == 0) return false;
+      const sdk::Vec3 off = path.at(way.fraction) - p_.centre;
+      return dot(off, off) <= p_.reach * p_.reach;
+    });
+    return is_through ? way : sdk::Passage{};
+  }
   [[nodiscard]] bool has_passed() const { return sums_[k_number] > 0.0; }
   [[nodiscard]] double expected_rate() const {
     if (!has_passed() || !(sums_[k_volume] > 0.0)) return 0.0;

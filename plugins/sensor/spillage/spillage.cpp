@@ -46,7 +46,7 @@ class Spillage final : public sdk::Sensor {
     double fell = 0.0;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      if (level_.passage_of(sdk::path_of(world, i)) >= 0) continue;
+      if (level_.passage_of(world, i) >= 0) continue;
       const double mass = g.weight[i] * g.mass[i];
       fell += mass;
       if (!is_steady) continue;

@@ -107,29 +107,9 @@ class Trajectory final : public sdk::Sensor {
       throw sdk::ModelError("'along' of the trajectory lies along gravity");
     const sdk::Vec3 along = across / norm(across);
 
-    const sdk::GrainColumns& g = world.grains;
-    for (std::size_t i = 0; i < g.id.size(); ++i) {
-      if (!p_.takes(g.diameter[i])) continue;
-      const sdk::Path path = sdk::path_of(world, i);
-      const double depth_before = dot(path.before - p_.from, down);
-      const double depth_now = dot(path.now - p_.from, down);
-      const double place_before = dot(path.before - p_.from, along);
-      const double place_now = dot(path.now - p_.from, along);
-      const std::size_t c = sdk::nearest_class(g.diameter[i], classes_);
-      const sdk::Vec3 velocity{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]};
-      if (depth_now <= 0.0 && sdk::passage(place_before, place_now).direction > 0) {
-        at_a_.add(depth_now, dot(velocity, down), g.weight[i], c);
-      }
-      for (std::size_t d = 0; d < levels_.size(); ++d) {
-        const sdk::Passage p = sdk::passage(depth_before - p_.drops[d], depth_now - p_.drops[d]);
-        if (p.direction <= 0) continue;
-        // Speed where the level is met: back along the acceleration at the end of the interval.
-        const sdk::Vec3 force{g.force_x[i], g.force_y[i], g.force_z[i]};
-        const double since = (1.0 - p.fraction) * world.interval;
-        const double speed = dot(velocity - (since / g.mass[i]) * force, down);
-        levels_[d].add(place_before + p.fraction * (place_now - place_before), speed, g.weight[i],
-                       c);
-      }
+    const Axes axes{along, down};
+    for (std::size_t i = 0; i < world.grains.id.size(); ++i) {
+      if (p_.takes(world.grains.diameter[i])) add_grain(world, i, axes);
     }
     at_a_.end_sample();
     for (Crossings& level : levels_) level.end_sample();
@@ -215,6 +195,64 @@ class Trajectory final : public sdk::Sensor {
   static constexpr std::size_t k_blocks = 20;
   static constexpr std::pair<double, const char*> k_quantiles[] = {
       {0.05, "quantile_5"}, {0.5, "median"}, {0.95, "quantile_95"}};
+
+  /// Of length 1.
+  struct Axes {
+    sdk::Vec3 along, down;
+  };
+  /// A way as seen from A.
+  struct Seen {
+    double place_before, place_now;  ///< [m] along the belt
+    double depth_before, depth_now;  ///< [m] along gravity
+  };
+  [[nodiscard]] Seen seen(const sdk::Path& way, const Axes& axes) const {
+    const sdk::Vec3 before = way.before - p_.from;
+    const sdk::Vec3 now = way.now - p_.from;
+    return {dot(before, axes.along), dot(now, axes.along), dot(before, axes.down),
+            dot(now, axes.down)};
+  }
+  /// Whether a way of grain `i` is in the domain there: levels have no ends, and where it has gone
+  /// through a periodic side its place is that of the image within.
+  static bool is_within(const sdk::WorldView& world, std::size_t i, sdk::Vec3 there) {
+    constexpr double k_rounding = 1e-12;
+    const sdk::Vec3 back = sdk::place_before(world, i) - sdk::path_of(world, i).before;
+    for (int d = 0; d < 3; ++d) {
+      if (back[d] == 0.0) continue;
+      const double tolerance = k_rounding * std::abs(back[d]);
+      if (there[d] < world.domain_min[d] - tolerance) return false;
+      if (there[d] > world.domain_max[d] + tolerance) return false;
+    }
+    return true;
+  }
+
+  void add_grain(const sdk::WorldView& world, std::size_t i, const Axes& axes) {
+    const sdk::GrainColumns& g = world.grains;
+    const std::size_t c = sdk::nearest_class(g.diameter[i], classes_);
+    const sdk::Vec3 velocity{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]};
+    sdk::any_way(world, i, [&](const sdk::Path& way) {
+      const Seen w = seen(way, axes);
+      const sdk::Passage p = sdk::passage(w.place_before, w.place_now);
+      if (p.direction <= 0 || w.depth_now > 0.0) return false;
+      if (!is_within(world, i, way.at(p.fraction))) return false;
+      at_a_.add(w.depth_now, dot(velocity, axes.down), g.weight[i], c);
+      return true;
+    });
+    for (std::size_t d = 0; d < levels_.size(); ++d) {
+      sdk::any_way(world, i, [&](const sdk::Path& way) {
+        const Seen w = seen(way, axes);
+        const sdk::Passage p =
+            sdk::passage(w.depth_before - p_.drops[d], w.depth_now - p_.drops[d]);
+        if (p.direction <= 0 || !is_within(world, i, way.at(p.fraction))) return false;
+        // Speed where the level is met: back along the acceleration at the end of the interval.
+        const sdk::Vec3 force{g.force_x[i], g.force_y[i], g.force_z[i]};
+        const double since = (1.0 - p.fraction) * world.interval;
+        const double speed = dot(velocity - (since / g.mass[i]) * force, axes.down);
+        levels_[d].add(w.place_before + p.fraction * (w.place_now - w.place_before), speed,
+                       g.weight[i], c);
+        return true;
+      });
+    }
+  }
 
   [[nodiscard]] std::string drop_name(std::size_t d) const {
     return "drop_" + sdk::name_of(p_.drops[d] * 1e3) + "_mm";

@@ -88,6 +88,29 @@ TEST_CASE("grains that come back through the hole shall be taken off") {
   CHECK(summary_of(*sensor)["time"] == 0.0);
 }
 
+TEST_CASE("grains that fall back into a hopper through a periodic side shall count at its outlet") {
+  // The hole lies in the lower side, by which they leave; the columns have them come in at the top.
+  SyntheticScene world;
+  Grain g = falling(0.1, 1e-3, 0.4e-3, 1e-3);
+  const double top = world.domain_max.z;
+  g.now = {0.1, 0.005, top - 0.3e-3};
+  g.before = g.now - world.interval * g.velocity;
+  REQUIRE(g.before.z > top);
+  world.grains = {g};
+  const auto number_at = [&](double x, double z) {
+    auto p = k_hole;
+    p["centre"] = Vec3{x, 0.005, z};
+    const auto sensor = load_sensor("discharge").make(p);
+    step(*sensor, world);
+    return summary_of(*sensor)["number"];
+  };
+  CHECK(number_at(0.1, 0.0) == 1.0);
+  CHECK(number_at(0.1, 0.1e-3) == 1.0);
+  CHECK(number_at(0.1, top - 0.1e-3) == 1.0);
+  CHECK(number_at(0.1, 0.3e-3) == 0.0);   // above where it was
+  CHECK(number_at(0.12, 0.1e-3) == 0.0);  // beside the hole
+}
+
 TEST_CASE("the error of a rate shall cover the truth at its frequency for a random stream") {
   Coverage coverage;
   for (int run = 0; run < k_runs; ++run) {

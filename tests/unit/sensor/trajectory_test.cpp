@@ -219,6 +219,58 @@ TEST_CASE("the speed at A shall be that of grains above the belt alone") {
   CHECK(figures["at_a/median_vertical_speed"] == test::approx(0.02).epsilon(1e-12));
 }
 
+TEST_CASE("a stream through periodic sides shall cross once, at places in the domain") {
+  SyntheticScene world;
+  const Vec3 extent = world.domain_max - world.domain_min;
+  const auto median_of = [&](Grain g) {
+    // As the columns have it: the way ends in the domain and begins beyond a side.
+    for (int d = 0; d < 3; ++d) {
+      const double shift = g.now[d] < 0.0 ? extent[d] : g.now[d] > extent[d] ? -extent[d] : 0.0;
+      g.now[d] += shift;
+      g.before[d] += shift;
+    }
+    auto parameters = k_stream;
+    parameters["drops"] = std::vector<double>{0.14, 0.2};
+    const auto sensor = kind().make(parameters);
+    world.grains = {g};
+    for (int s = 0; s < 20; ++s) step(*sensor, world);
+    return summary_of(*sensor);
+  };
+  const double to_end = extent.x - 0.08;
+  // It crosses in the middle of its way of 0.8 mm, before and behind the side.
+  const Figures before = median_of(falling_at(to_end - 0.0002));
+  CHECK(before["drop_140_mm/crossings"] == 20.0);
+  CHECK(before["drop_140_mm/median"] == test::approx(to_end - 0.0002).epsilon(1e-9));
+  const Figures behind = median_of(falling_at(to_end + 0.0002));
+  CHECK(behind["drop_140_mm/crossings"] == 20.0);
+  CHECK(behind["drop_140_mm/median"] == test::approx(-0.08 + 0.0002).epsilon(1e-9));
+  // Through the lower side, in which the level of the second drop lies.
+  Grain low = falling_at(0.1);
+  low.before.z -= 0.06;
+  low.now.z -= 0.06;
+  CHECK(median_of(low)["drop_200_mm/crossings"] == 20.0);
+  // Through both at once.
+  Grain corner = falling_at(to_end - 0.0002);
+  corner.before.z -= 0.06;
+  corner.now.z -= 0.06;
+  const Figures both = median_of(corner);
+  CHECK(both["drop_200_mm/crossings"] == 20.0);
+  CHECK(both["drop_200_mm/median"] == test::approx(to_end - 0.0002).epsilon(1e-9));
+  // Past A, which is the side itself, above the belt.
+  Grain passing;
+  passing.before = {-0.0004, 0.005, 0.21};
+  passing.now = {0.0004, 0.005, 0.21};
+  passing.velocity = {0.8, 0, 0};
+  for (const double x : {0.0, 0.0002, extent.x, extent.x - 0.0002}) {
+    auto parameters = k_stream;
+    parameters["from"] = Vec3{x, 0, 0.2};
+    const auto sensor = kind().make(parameters);
+    world.grains = {passing};
+    step(*sensor, world);
+    CHECK(summary_of(*sensor)["at_a/crossings"] == 1.0);
+  }
+}
+
 TEST_CASE("size classes shall have their own median") {
   const auto sensor = kind().make(k_stream);
   SyntheticScene world;

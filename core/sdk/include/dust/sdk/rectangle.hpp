@@ -55,25 +55,13 @@ class Rectangle {
     return p.direction;
   }
 
-  /// The same of grain `i` between two samples. A grain that has gone through a periodic side has
-  /// passed what is before that side on the way as it began, and what is behind it on the way as it
-  /// ended: both are looked at, and a passage counts once.
+  /// The same of grain `i` between two samples, through periodic sides as well.
   [[nodiscard]] int passage_of(const WorldView& world, std::size_t i) const {
-    const Path path = path_of(world, i);
-    const Vec3 back = place_before(world, i) - path.before;
-    int direction = passage_of(path);
-    if (back == Vec3{}) return direction;
-    // Through two or three sides at once, in any order.
-    for (int sides = 1; direction == 0 && sides < 8; ++sides) {
-      Vec3 shift;
-      bool is_way = true;
-      for (int d = 0; d < 3; ++d) {
-        if ((sides >> d & 1) == 0) continue;
-        shift[d] = back[d];
-        is_way = is_way && back[d] != 0.0;
-      }
-      if (is_way) direction = passage_of({path.before + shift, path.now + shift});
-    }
+    int direction = 0;
+    any_way(world, i, [&](const Path& way) {
+      direction = passage_of(way);
+      return direction != 0;
+    });
     return direction;
   }
 

@@ -119,6 +119,30 @@ inline Vec3 place_before(const WorldView& world, std::size_t i) {
   return place;
 }
 
+/// Calls `visit(path)` with the path of grain `i` and, where it has gone through periodic sides,
+/// with its images: the grain has passed what is before such a side on the way as it began, what is
+/// behind it on the way as it ended. Stops at the first call that returns true, so that a passage
+/// counts once; false without one.
+template <class Visit>
+bool any_way(const WorldView& world, std::size_t i, const Visit& visit) {
+  const Path path = path_of(world, i);
+  if (visit(path)) return true;
+  const Vec3 back = place_before(world, i) - path.before;
+  if (back == Vec3{}) return false;
+  // Through two or three sides at once, in any order.
+  for (int sides = 1; sides < 8; ++sides) {
+    Vec3 shift;
+    bool is_way = true;
+    for (int d = 0; d < 3; ++d) {
+      if ((sides >> d & 1) == 0) continue;
+      shift[d] = back[d];
+      is_way = is_way && back[d] != 0.0;
+    }
+    if (is_way && visit(Path{path.before + shift, path.now + shift})) return true;
+  }
+  return false;
+}
+
 /// Passage through a level between two samples of a signed height: +1 upward, -1 downward, 0 none.
 /// A height on the level counts as above it, so that no passage is counted twice.
 struct Passage {
