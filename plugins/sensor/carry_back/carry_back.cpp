@@ -141,13 +141,6 @@ class CarryBack final : public sdk::Sensor {
 
   /// Whether the mass emitted is among the means, after all groups: not in older checkpoints.
   [[nodiscard]] bool knows_feed() const { return means_.columns() % k_columns == 1; }
-  /// As in plane_flux: a batch is no feed.
-  [[nodiscard]] bool is_uneven() const {
-    if (!knows_feed()) return false;
-    const std::size_t feed = means_.columns() - 1;
-    if (means_.mean(feed) == 0.0 || means_.is_even(feed)) return false;
-    return emitted_before_ > 0.0 || !means_.has_ended(feed);
-  }
   /// Mass emitted while the means were taken.
   [[nodiscard]] double emitted() const {
     return emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
@@ -174,7 +167,7 @@ class CarryBack final : public sdk::Sensor {
     const double per_flow =
         emitted() > 0.0 ? k_grams_per_tonne * means_.duration() / emitted() : 0.0;
     const auto role = k_flow.of(sdk::Quantity::mass_per_load).sizes(diameter, diameter);
-    if (is_uneven()) {
+    if (knows_feed() && means_.is_uneven(means_.columns() - 1, emitted_before_)) {
       sink.figure(prefix + "grams_per_tonne", std::numeric_limits<double>::quiet_NaN(), "g/t",
                   sdk::k_feed_not_even, role);
       return;

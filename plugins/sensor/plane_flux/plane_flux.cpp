@@ -184,19 +184,11 @@ class PlaneFlux final : public sdk::Sensor {
 
   /// Whether the mass emitted is among the means: not in those of older checkpoints.
   [[nodiscard]] bool knows_feed() const { return means_.columns() % k_columns == 1; }
-  /// Whether means cannot be told per load: the feed begins, ends or changes while they are taken.
-  /// A batch is no feed: all of it has come since the means began, and no more of it comes.
-  [[nodiscard]] bool is_uneven() const {
-    if (!knows_feed()) return false;
-    const std::size_t feed = means_.columns() - 1;
-    if (means_.mean(feed) == 0.0 || means_.is_even(feed)) return false;
-    return emitted_before_ > 0.0 || !means_.has_ended(feed);
-  }
   /// `rate`: its place among the means, `counted` as in rates_of(); `error` is that of the rate.
   void per_load_of(const std::string& name, std::size_t rate, double counted, double error,
                    const sdk::FigureRole& role, sdk::FigureSink& sink) const {
     const double duration = means_.duration();
-    if (is_uneven()) {
+    if (knows_feed() && means_.is_uneven(means_.columns() - 1, emitted_before_)) {
       sink.figure(name, std::numeric_limits<double>::quiet_NaN(), "g/t", sdk::k_feed_not_even,
                   role);
       return;

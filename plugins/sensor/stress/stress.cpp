@@ -4,6 +4,8 @@
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
+#include <limits>
+
 namespace {
 
 namespace formula = dust::model::stress;
@@ -34,7 +36,7 @@ class Stress final : public sdk::Sensor {
         .version = "1.0",
         .summary = "Stress, density and velocity of the grains as fields averaged over cells.",
         .equation =
-            R"(\sigma_{ab} = \frac1V \Big(\sum_i m_i v'_{i,a} v'_{i,b} - \sum_c s_c f_{c,a} b_{c,b}\Big))",
+            R"(\sigma_{ab} = \frac1V \Big(\beta \sum_i m_i v'_{i,a} v'_{i,b} - \sum_c s_c f_{c,a} b_{c,b}\Big))",
         .source = "Goldhirsch, Granular Matter 12 (2010) 239, doi:10.1007/s10035-010-0181-z"};
   }
 
@@ -145,16 +147,20 @@ class Stress final : public sdk::Sensor {
     return means_.mean(field) != 0.0 ? means_.error(field) : -1.0;
   }
 
+  static constexpr std::size_t k_outside = std::numeric_limits<std::size_t>::max();
+
+  [[nodiscard]] std::size_t cell_of(const sdk::GrainColumns& g, std::size_t i) const {
+    const formula::Point x{g.x[i], g.y[i], g.z[i]};
+    if (!cells_.holds(x)) return k_outside;
+    return cells_.index(cells_.at(0, x[0]), cells_.at(1, x[1]), cells_.at(2, x[2]));
+  }
   void add_grains(const sdk::GrainColumns& g) {
-    const auto cell_of = [&](std::size_t i) -> double* {
-      const formula::Point x{g.x[i], g.y[i], g.z[i]};
-      if (!cells_.holds(x)) return nullptr;
-      return fields_.data() +
-             k_fields * cells_.index(cells_.at(0, x[0]), cells_.at(1, x[1]), cells_.at(2, x[2]));
-    };
+    samples_.assign(cells_.size(), {});
     for (std::size_t i = 0; i < g.id.size(); ++i) {
-      double* f = cell_of(i);
-      if (f == nullptr) continue;
+      const std::size_t cell = cell_of(g, i);
+      if (cell == k_outside) continue;
+      samples_[cell].add(g.weight[i], g.mass[i]);
+      double* f = fields_.data() + k_fields * cell;
       const double m = g.weight[i] * g.mass[i];
       f[k_density] += m;
       f[k_density + 1] += m * g.velocity_x[i];
@@ -162,12 +168,13 @@ class Stress final : public sdk::Sensor {
       f[k_density + 3] += m * g.velocity_z[i];
     }
     for (std::size_t i = 0; i < g.id.size(); ++i) {
-      double* f = cell_of(i);
-      if (f == nullptr) continue;
+      const std::size_t cell = cell_of(g, i);
+      if (cell == k_outside) continue;
+      double* f = fields_.data() + k_fields * cell;
       const double* momentum = f + k_density + 1;
       const double mass = f[k_density];
       formula::add_motion(
-          g.weight[i] * g.mass[i],
+          formula::unbiased(samples_[cell]) * g.weight[i] * g.mass[i],
           {g.velocity_x[i] - momentum[0] / mass, g.velocity_y[i] - momentum[1] / mass,
            g.velocity_z[i] - momentum[2] / mass},
           f);
@@ -207,7 +214,8 @@ class Stress final : public sdk::Sensor {
 
   Parameters p_;
   formula::Cells cells_;
-  std::vector<double> fields_;  ///< of the last sample; no state between calls
+  std::vector<double> fields_;            ///< of the last sample; no state between calls
+  std::vector<formula::Sample> samples_;  ///< the grains behind them, of each cell; likewise
   std::vector<double> totals_ = std::vector<double>(k_fields, 0.0);  ///< means over the box
   std::vector<double> sums_;  ///< integrals of the fields over time
   sdk::BatchMeans means_{k_fields};

@@ -95,6 +95,40 @@ inline void add_contact(const Point& force, const Point& branch, double share, d
   }
 }
 
+/// The grains of a cell at one moment, as far as the bias of their motion asks.
+struct Sample {
+  std::size_t count = 0;  ///< computed grains
+  double weight = 0.0;    ///< sum of w, real grains per computed one
+  double mass = 0.0;      ///< [kg] sum of w m
+  double squares = 0.0;   ///< [kg] sum of w^2 m
+
+  void add(double w, double m) {
+    ++count;
+    weight += w;
+    mass += w * m;
+    squares += w * w * m;
+  }
+};
+
+/// What \f$ \sum w m v'_a v'_b \f$ has to be multiplied with, because v' is taken about the mean
+/// velocity of the same grains, which goes with them:
+/// \f$ \Big[ 1 - \frac{\sum w^2 m}{\sum w \sum w m} \Big]^{-1} \f$, for grains of one weight
+/// \f$ n / (n-1) \f$ whatever their masses. With it the mean over many samples of n grains is free
+/// of bias if their velocities are independent and m times their variance is the same for all (a
+/// gas of one temperature); for grains of one mass, of any velocities that are independent and
+/// alike.
+///
+/// 0 for a single grain: its motion against the mean of one cannot be told. A gas of which a cell
+/// holds \f$ \lambda \f$ grains in the mean (Poisson) shows \f$ 1 - e^{-\lambda} \f$ of its kinetic
+/// stress: 95 % at 3, 99 % at 4.6 grains. Without the factor it were
+/// \f$ 1 - (1 - e^{-\lambda}) / \lambda \f$: 68 % and 78 %.
+/// Source: Bessel's correction with weights, own derivation; on the bias of what is told from
+/// instantaneous means of few particles: Garcia, Comm. App. Math. Comp. Sci. 1 (2006) 53,
+/// doi:10.2140/camcos.2006.1.53.
+inline double unbiased(const Sample& s) {
+  return s.count < 2 ? 0.0 : 1.0 / (1.0 - s.squares / (s.weight * s.mass));
+}
+
 /// Adds one grain's motion against the mean of its cell: \f$ V \sigma_{ab} = \sum m v'_a v'_b \f$.
 inline void add_motion(double mass, const Point& velocity, double* sums) {
   for (std::size_t c = 0; c < 6; ++c) {

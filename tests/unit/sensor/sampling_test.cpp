@@ -214,6 +214,17 @@ TEST_CASE("a feed shall count as even unless it begins, ends or changes while it
   CHECK(fed([](int i) { return i < 900 ? 1.0 : 0.0; }).has_ended(0));
   CHECK_FALSE(fed([](int i) { return i < 900 ? 0.0 : 1.0; }).has_ended(0));
   CHECK_FALSE(sdk::BatchMeans(1).is_even(0));
+  // Amounts per load: of a batch they are known, of a feed that ends or begins they are not.
+  const auto steady = fed([](int) { return 1.0; });
+  const auto ending = fed([](int i) { return i < 600 ? 1.0 : 0.0; });
+  const auto beginning = fed([](int i) { return i < 300 ? 0.0 : 1.0; });
+  CHECK_FALSE(steady.is_uneven(0, 0.0));
+  CHECK_FALSE(steady.is_uneven(0, 3.0));
+  CHECK_FALSE(ending.is_uneven(0, 0.0));
+  CHECK(ending.is_uneven(0, 3.0));
+  CHECK(beginning.is_uneven(0, 0.0));
+  CHECK_FALSE(fed([](int) { return 0.0; }).is_uneven(0, 3.0));
+  CHECK_FALSE(sdk::BatchMeans(1).is_uneven(0, 3.0));
 }
 
 TEST_CASE("few samples shall give no error rather than a wrong one") {

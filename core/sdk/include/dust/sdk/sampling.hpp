@@ -261,6 +261,13 @@ class BatchMeans {
     return !durations_.empty() && closed_[(durations_.size() - 1) * columns_ + column] == 0.0 &&
            open_[column] == 0.0;
   }
+  /// Whether means cannot be told per amount of a column that counts what is fed: the feed begins,
+  /// ends or changes while they are taken. A batch is no feed: all of it has come since the means
+  /// began, and no more of it comes. `before`: what had been fed by then, in the column's unit.
+  [[nodiscard]] bool is_uneven(std::size_t column, double before) const {
+    if (mean(column) == 0.0 || is_even(column)) return false;
+    return before > 0.0 || !has_ended(column);
+  }
   /// How far a single batch lies from the mean of all, one standard deviation; k_no_estimate below
   /// 8 batches.
   [[nodiscard]] double deviation(std::size_t column) const {
