@@ -32,6 +32,13 @@ struct Rolling {
 /// ahead, so that a couple which took all of it would leave the rate swinging from step to step; at
 /// half of it both modes die out, by 0.64 and 0.39 a step, and a grain comes to rest (own
 /// derivation).
+///
+/// The couple vanishes with the velocity: it cannot hold a grain on a slope. Below the threshold,
+/// \f$ \tan\theta < \mu_r \f$, the second bound balances the weight,
+/// \f$ \tfrac15 m R^2 \omega / \Delta t = m g R \sin\theta \f$ with \f$ v = \omega R \f$, and the
+/// grain creeps at \f$ v = 5 g \sin\theta\, \Delta t \f$ (own derivation; verified in
+/// tests/verification/contact). Without the bound, as in other codes, the couple of constant size
+/// changes its sign from step to step, and holds the grain as little. For heaps take epsd2.
 /// Source: model A of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
 /// doi:10.1016/j.powtec.2010.09.030; Zhou, Wright, Yang, Xu, Yu, Physica A 269 (1999) 536,
 /// doi:10.1016/S0378-4371(99)00183-1.
