@@ -52,8 +52,8 @@
     const parts = [el('div', c.is_good ? {} : {class: 'banner'}, ...c.statements.map((text) => p({}, text))),
       Dust.table([{title: 'Parameter'}, n('Likeliest'), n('Mean ± deviation'), n('Region from'), n('To'), {title: 'Pinned down'}],
         c.estimates.map((e) => [with_unit(e.name, e.unit), Dust.number(e.best), Dust.value(e.mean, e.deviation), Dust.number(e.low), Dust.number(e.high), e.is_pinned ? 'yes' : Dust.strong('no')]), {look: 'narrow', label: 'Parameters'}),
-      Dust.table([{title: 'Target'}, n('Measured'), n('Expected at the likeliest values'), n('Scatter of single runs')],
-        c.targets.map((t) => [with_unit(t.name, t.unit), Dust.value(t.measured, t.measured_error), Dust.value(t.expected, t.expected_error), Dust.number(t.scatter, 2)]), {look: 'narrow', label: 'Targets'})];
+      Dust.table([{title: 'Target'}, n('Measured'), n('Expected at the likeliest values'), n('Off by [errors]'), n('Scatter of single runs'), n('Their own errors'), n('Not steady')],
+        c.targets.map((t) => [with_unit(t.name, t.unit), Dust.value(t.measured, t.measured_error), Dust.value(t.expected, t.expected_error), Dust.number(t.chi, 2), Dust.number(t.scatter, 2), Dust.number(t.run_error, 2), t.points_not_steady > 0 ? Dust.strong(String(t.points_not_steady)) : Dust.number(0)]), {look: 'narrow', label: 'Targets'})];
     if (c.curves) {
       const grid = el('div', {class: 'grid'});
       Dust.later.push(() => c.curves.forEach((q) => Dust.plot(grid, {title: q.goal, x_label: with_unit(q.parameter, q.parameter_unit), y_label: with_unit(q.goal, q.unit), unit: Dust.raise(q.unit),

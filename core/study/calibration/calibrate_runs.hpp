@@ -11,6 +11,10 @@ namespace dust::study {
 /// The question of a calibration, with the units its columns have.
 CalibrationSettings settings_of(const Spec& spec, const Plan& plan);
 
+/// The mean of what replicates of a place tell; its error from theirs, if all tell one, else why
+/// not.
+OutputValue mean_of_replicates(const std::vector<OutputValue>& replicates);
+
 /// Answers by running points: appends them to the plan of `runner` and has them run.
 class RunEvaluator final : public Evaluator {
  public:

@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "study/calibration/cloud.hpp"
 #include "study/calibration/landscape.hpp"
+#include "study/noise.hpp"
 #include "study/sampling.hpp"
 
 #include <algorithm>
@@ -25,6 +26,25 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
   for (std::size_t d = 0; d < a.size(); ++d) sum += (a[d] - b[d]) * (a[d] - b[d]);
   return std::sqrt(sum);
+}
+
+RunErrors run_errors_of(const std::vector<Evaluation>& evaluations, std::size_t goal) {
+  RunErrors sum;
+  double squares = 0.0;
+  for (const Evaluation& e : evaluations) {
+    if (!e[goal].value) continue;
+    ++sum.points;
+    if (is_unsteady(e[goal])) {
+      ++sum.unsteady;
+    } else if (e[goal].error < 0.0) {
+      ++sum.without;
+    } else {
+      squares += e[goal].error * e[goal].error;
+    }
+  }
+  const std::size_t with = sum.points - sum.unsteady - sum.without;
+  if (with > 0) sum.error = std::sqrt(squares / static_cast<double>(with));
+  return sum;
 }
 
 class Calibrator {
@@ -86,6 +106,10 @@ class Calibrator {
     result_.landscape = make_landscape(settings_, surrogates_);
     result_.scatter.clear();
     for (const auto& s : surrogates_) result_.scatter.push_back(s->scatter());
+    result_.run_errors.clear();
+    for (std::size_t g = 0; g < settings_.goals.size(); ++g) {
+      result_.run_errors.push_back(run_errors_of(result_.evaluations, g));
+    }
     result_.at_best = predictions_at(surrogates_, result_.landscape.best);
     conclude(settings_, result_);
     if (reported_) reported_(result_);
@@ -172,20 +196,31 @@ std::vector<std::unique_ptr<Surrogate>> learn(const CalibrationSettings& setting
   for (std::size_t g = 0; g < settings.goals.size(); ++g) {
     std::vector<std::vector<double>> places;
     std::vector<double> values;
+    std::vector<double> errors;
     for (std::size_t n = 0; n < calibration.places.size(); ++n) {
-      const auto& value = calibration.evaluations[n][g];
+      const auto& [value, error, no_error] = calibration.evaluations[n][g];
       if (!value || !std::isfinite(*value)) continue;
       places.push_back(share_of(settings, calibration.places[n]));
       values.push_back(*value);
+      errors.push_back(error);
     }
     all.push_back(make_surrogate(settings.surrogate));
     try {
-      all.back()->fit(places, values);
+      all.back()->fit(places, values, errors);
     } catch (const base::RunError& problem) {
       throw base::RunError(settings.goals[g].name + ": " + problem.what());
     }
   }
   return all;
+}
+
+double chi_of(const Goal& goal, const Prediction& prediction) {
+  return (prediction.mean - goal.value) / std::sqrt(goal.error * goal.error + prediction.variance);
+}
+
+bool is_steady(const Calibration& calibration) {
+  return std::all_of(calibration.run_errors.begin(), calibration.run_errors.end(),
+                     [](const RunErrors& e) { return e.unsteady == 0; });
 }
 
 Calibration calibrate(const CalibrationSettings& settings, Evaluator& evaluator,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "study/calibration/surrogate.hpp"
+#include "study/point_store.hpp"
 
 #include <functional>
 #include <memory>
@@ -27,8 +28,17 @@ struct Freedom {
   double high = 0.0;
 };
 
-/// What came of one place: a value per goal; nothing where the run failed or did not tell it.
-using Evaluation = std::vector<std::optional<double>>;
+/// What came of one place: a value per goal with its standard error; no value where the run failed
+/// or did not tell it.
+using Evaluation = std::vector<OutputValue>;
+
+/// What the points tell of their own errors in one goal.
+struct RunErrors {
+  double error = -1.0;       ///< root mean square of those told; negative: none is
+  std::size_t points = 0;    ///< with a value
+  std::size_t without = 0;   ///< that tell no error for another reason than the next
+  std::size_t unsteady = 0;  ///< that have not settled
+};
 
 /// Answers for places, by running or by a formula.
 class Evaluator {
@@ -90,6 +100,7 @@ struct Calibration {
   std::vector<std::vector<double>> correlation;  ///< of the parameters, by the density
   std::vector<Prediction> at_best;               ///< per goal
   std::vector<double> scatter;                   ///< of single runs, per goal
+  std::vector<RunErrors> run_errors;             ///< per goal
   double misfit = 0.0;  ///< sum over goals of (prediction - goal)^2 / (error^2 + variance), at best
   bool is_met = false;  ///< the misfit is one that errors explain
   bool is_pinned = false;  ///< all parameters are
@@ -101,15 +112,22 @@ struct Calibration {
 /// Finds the parameters that meet the goals: Sobol places first, then places chosen where the
 /// surrogates are unsure and the goals might be met, until the surrogates are precise within the
 /// confidence region or the runs are used up; the best place is run last. The density is that of
-/// independent normal errors of goals and surrogates with a flat prior over the intervals; the
-/// region is the smallest with the wanted probability. The places do not depend on how many are run
-/// at a time by the evaluator. `told` hears of every batch.
+/// independent normal errors of goals, surrogates and runs with a flat prior over the intervals;
+/// the region is the smallest with the wanted probability. The places do not depend on how many are
+/// run at a time by the evaluator. `told` hears of every batch.
 Calibration calibrate(const CalibrationSettings& settings, Evaluator& evaluator,
                       const std::function<void(const Calibration&)>& reported = {});
 
 /// Whether `values` lie in the confidence region.
 bool is_in_region(const Calibration& calibration, const CalibrationSettings& settings,
                   const std::vector<double>& values);
+
+/// How far a prediction lies from its goal, in standard errors: \f$ (p - v) / \sqrt{e^2 + s^2} \f$
+/// with the goal's error e and that of the prediction s, which holds the errors of the runs.
+double chi_of(const Goal& goal, const Prediction& prediction);
+
+/// Whether no value rests on a run that has not settled.
+bool is_steady(const Calibration& calibration);
 
 /// Surrogates of all goals, learnt from what was run.
 std::vector<std::unique_ptr<Surrogate>> learn(const CalibrationSettings& settings,

@@ -56,7 +56,7 @@ Json curves_json(const CalibrationAnswer& a) {
     }
     std::vector<std::pair<double, double>> runs;
     for (std::size_t n = 0; n < a.calibration.places.size(); ++n) {
-      const auto& value = a.calibration.evaluations[n][g];
+      const auto& value = a.calibration.evaluations[n][g].value;
       if (value) runs.emplace_back(a.calibration.places[n][0], *value);
     }
     std::sort(runs.begin(), runs.end());
@@ -102,13 +102,18 @@ Json targets_json(const CalibrationAnswer& a) {
   for (std::size_t g = 0; g < a.settings.goals.size(); ++g) {
     const Goal& goal = a.settings.goals[g];
     const Prediction& p = a.calibration.at_best[g];
+    const RunErrors& runs = a.calibration.run_errors[g];
     list.push_back({{"name", goal.name},
                     {"unit", goal.unit},
                     {"measured", goal.value},
                     {"measured_error", goal.error},
                     {"expected", p.mean},
                     {"expected_error", std::sqrt(p.variance)},
-                    {"scatter", a.calibration.scatter[g]}});
+                    {"scatter", a.calibration.scatter[g]},
+                    {"chi", chi_of(goal, p)},
+                    {"run_error", runs.error < 0.0 ? Json(nullptr) : Json(runs.error)},
+                    {"points_without_error", runs.without},
+                    {"points_not_steady", runs.unsteady}});
   }
   return list;
 }
@@ -123,7 +128,7 @@ Json calibration_json(const CalibrationAnswer& a) {
                {"surrogate", a.settings.surrogate},
                {"confidence", a.settings.confidence}};
   if (!has_answer) return json;
-  json["is_good"] = a.calibration.is_met && a.calibration.is_pinned;
+  json["is_good"] = a.calibration.is_met && a.calibration.is_pinned && is_steady(a.calibration);
   json["statements"] = Json::array();
   for (const std::string& text : a.calibration.statements) {
     json["statements"].push_back(with_true_signs(text));

@@ -34,8 +34,8 @@ double matern(double r) {
 
 class GaussianProcess final : public Surrogate {
  public:
-  void fit(const std::vector<std::vector<double>>& places,
-           const std::vector<double>& values) override {
+  void fit(const std::vector<std::vector<double>>& places, const std::vector<double>& values,
+           const std::vector<double>& errors) override {
     places_ = places;
     const std::size_t dimensions = places.empty() ? 0 : places.front().size();
     if (places.size() < fewest(dimensions)) {
@@ -49,6 +49,7 @@ class GaussianProcess final : public Surrogate {
     y_ = (y_.array() - mean) / unit_;
     search(dimensions);
     factorise();
+    unheld_ = variances_above(errors, scatter());
   }
 
   [[nodiscard]] Prediction at(const std::vector<double>& place) const override {
@@ -57,8 +58,14 @@ class GaussianProcess final : public Surrogate {
     const VectorXd solved = factor_.solve(r);
     const double mean = h.dot(beta_) + r.dot(weights_);
     const VectorXd u = h - basis_.transpose() * solved;
-    const double variance = 1.0 - r.dot(solved) + u.dot(trend_factor_.solve(u));
-    return {origin_ + unit_ * mean, unit_ * unit_ * sigma2_ * std::max(0.0, variance)};
+    const VectorXd of_trend = trend_factor_.solve(u);
+    const double variance = 1.0 - r.dot(solved) + u.dot(of_trend);
+    const VectorXd w = solved + solved_basis_ * of_trend;  // mean = w . y
+    double of_runs = 0.0;
+    for (Eigen::Index i = 0; i < w.size(); ++i) {
+      of_runs += w[i] * w[i] * unheld_[static_cast<std::size_t>(i)];
+    }
+    return {origin_ + unit_ * mean, unit_ * unit_ * sigma2_ * std::max(0.0, variance) + of_runs};
   }
 
   void add_virtual_run(const std::vector<double>& place) override {
@@ -67,6 +74,7 @@ class GaussianProcess final : public Surrogate {
     places_.push_back(place);
     y_.conservativeResize(y_.size() + 1);
     y_[y_.size() - 1] = expected;
+    unheld_.push_back(mean_variance(unheld_));
     factorise();
     sigma2_ = sigma2;  // what is expected teaches nothing about the scale
   }
@@ -116,10 +124,10 @@ class GaussianProcess final : public Surrogate {
     const double g = std::exp(parameters_.back());
     k.diagonal().array() += g * g;
     factor_.compute(k);
-    const MatrixXd solved_basis = factor_.solve(basis_);
-    const MatrixXd normal = basis_.transpose() * solved_basis;
+    solved_basis_ = factor_.solve(basis_);
+    const MatrixXd normal = basis_.transpose() * solved_basis_;
     trend_factor_.compute(normal);
-    beta_ = trend_factor_.solve(solved_basis.transpose() * y_);
+    beta_ = trend_factor_.solve(solved_basis_.transpose() * y_);
     const VectorXd rest = y_ - basis_ * beta_;
     weights_ = factor_.solve(rest);
     const auto freedom = static_cast<double>(n - basis_.cols());
@@ -184,6 +192,9 @@ class GaussianProcess final : public Surrogate {
   double unit_ = 1.0;
   std::vector<double> parameters_;  ///< logarithms of the lengths and of the scatter
   MatrixXd basis_;
+  MatrixXd solved_basis_;
+  std::vector<double>
+      unheld_;  ///< variances of runs beyond the scatter, in the values' unit squared
   Eigen::LLT<MatrixXd> factor_;
   Eigen::LLT<MatrixXd> trend_factor_;
   VectorXd beta_;
@@ -192,6 +203,20 @@ class GaussianProcess final : public Surrogate {
 };
 
 }  // namespace
+
+std::vector<double> variances_above(const std::vector<double>& errors, double scatter) {
+  std::vector<double> variances;
+  for (const double e : errors) {
+    variances.push_back(e > scatter ? e * e - scatter * scatter : 0.0);
+  }
+  return variances;
+}
+
+double mean_variance(const std::vector<double>& variances) {
+  double sum = 0.0;
+  for (const double v : variances) sum += v;
+  return variances.empty() ? 0.0 : sum / static_cast<double>(variances.size());
+}
 
 std::unique_ptr<Surrogate> make_gaussian_process() { return std::make_unique<GaussianProcess>(); }
 

@@ -292,6 +292,26 @@ void print_misfit(const CalibrationSettings& settings, Calibration& c) {
   c.statements.push_back(text + ". Widen the ranges, free another parameter, or doubt the model.");
 }
 
+/// Where the values that the answer rests on tell no errors, or have not settled.
+void print_run_errors(const CalibrationSettings& settings, Calibration& c) {
+  for (std::size_t g = 0; g < c.run_errors.size(); ++g) {
+    const RunErrors& e = c.run_errors[g];
+    const std::string of = " of " + std::to_string(e.points) + " points";
+    if (e.unsteady > 0) {
+      c.statements.push_back(settings.goals[g].name + " is not steady in " +
+                             std::to_string(e.unsteady) + of +
+                             ": it may still change by more than it scatters. "
+                             "Observe longer.");
+    }
+    if (e.without > 0) {
+      c.statements.push_back(settings.goals[g].name + " has no error in " +
+                             std::to_string(e.without) + of +
+                             ": what they scatter about the surrogate stands for "
+                             "it.");
+    }
+  }
+}
+
 void print_parameters(const CalibrationSettings& settings, Calibration& c) {
   const std::string percent = short_number(100.0 * settings.confidence) + " %";
   for (std::size_t d = 0; d < settings.parameters.size(); ++d) {
@@ -324,9 +344,11 @@ void conclude(const CalibrationSettings& settings, Calibration& c) {
   estimate(settings, c);
   if (!c.is_met) {
     print_misfit(settings, c);
+    print_run_errors(settings, c);
     return;
   }
   print_parameters(settings, c);
+  print_run_errors(settings, c);
   const std::size_t dimensions = settings.parameters.size();
   for (std::size_t a = 0; a < dimensions; ++a) {
     for (std::size_t b = 0; b < a; ++b) {

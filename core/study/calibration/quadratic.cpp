@@ -17,33 +17,43 @@ using Eigen::VectorXd;
 
 class Quadratic final : public Surrogate {
  public:
-  void fit(const std::vector<std::vector<double>>& places,
-           const std::vector<double>& values) override {
+  void fit(const std::vector<std::vector<double>>& places, const std::vector<double>& values,
+           const std::vector<double>& errors) override {
     const std::size_t dimensions = places.empty() ? 0 : places.front().size();
     if (places.size() < fewest(dimensions)) {
       throw base::RunError("too few runs finished to learn from: " + std::to_string(places.size()));
     }
     const auto n = static_cast<Eigen::Index>(places.size());
-    MatrixXd basis(n, terms(places.front()).size());
+    basis_.resize(n, terms(places.front()).size());
     for (Eigen::Index i = 0; i < n; ++i) {
-      basis.row(i) = terms(places[static_cast<std::size_t>(i)]);
+      basis_.row(i) = terms(places[static_cast<std::size_t>(i)]);
     }
     const VectorXd y = Eigen::Map<const VectorXd>(values.data(), n);
-    normal_ = basis.transpose() * basis;
+    normal_ = basis_.transpose() * basis_;
     factor_.compute(normal_);
-    beta_ = factor_.solve(basis.transpose() * y);
-    const double rest = (y - basis * beta_).squaredNorm();
-    variance_ = rest / static_cast<double>(n - basis.cols());
+    beta_ = factor_.solve(basis_.transpose() * y);
+    const double rest = (y - basis_ * beta_).squaredNorm();
+    variance_ = rest / static_cast<double>(n - basis_.cols());
+    unheld_ = variances_above(errors, scatter());
   }
 
   [[nodiscard]] Prediction at(const std::vector<double>& place) const override {
     const VectorXd h = terms(place);
-    return {h.dot(beta_), variance_ * std::max(0.0, h.dot(factor_.solve(h)))};
+    const VectorXd solved = factor_.solve(h);
+    const VectorXd w = basis_ * solved;  // mean = w . y
+    double of_runs = 0.0;
+    for (Eigen::Index i = 0; i < w.size(); ++i) {
+      of_runs += w[i] * w[i] * unheld_[static_cast<std::size_t>(i)];
+    }
+    return {h.dot(beta_), variance_ * std::max(0.0, h.dot(solved)) + of_runs};
   }
 
   void add_virtual_run(const std::vector<double>& place) override {
     const VectorXd h = terms(place);
     normal_ += h * h.transpose();
+    basis_.conservativeResize(basis_.rows() + 1, Eigen::NoChange);
+    basis_.row(basis_.rows() - 1) = h;
+    unheld_.push_back(mean_variance(unheld_));
     factor_.compute(normal_);
   }
 
@@ -64,7 +74,9 @@ class Quadratic final : public Surrogate {
     return Eigen::Map<const VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
   }
 
+  MatrixXd basis_;
   MatrixXd normal_;
+  std::vector<double> unheld_;  ///< variances of runs beyond the scatter
   Eigen::LDLT<MatrixXd> factor_;
   VectorXd beta_;
   double variance_ = 0.0;

@@ -18,9 +18,16 @@ struct Prediction {
 class Surrogate {
  public:
   virtual ~Surrogate() = default;
-  /// Learns from `values` at `places`; throws base::RunError with too few of them.
+  /// Learns from `values` at `places`; throws base::RunError with too few of them. `errors`:
+  /// standard errors of the values, negative where they tell none. Where they are larger than the
+  /// scatter learnt, predictions carry the rest: \f$ \sum_i w_i^2 \max(0, e_i^2 - s^2) \f$ for a
+  /// mean \f$ \sum_i w_i y_i \f$ (own derivation: errors of runs are independent).
   virtual void fit(const std::vector<std::vector<double>>& places,
-                   const std::vector<double>& values) = 0;
+                   const std::vector<double>& values, const std::vector<double>& errors) = 0;
+  /// Of values that tell no errors.
+  void fit(const std::vector<std::vector<double>>& places, const std::vector<double>& values) {
+    fit(places, values, std::vector<double>(values.size(), -1.0));
+  }
   [[nodiscard]] virtual Prediction at(const std::vector<double>& place) const = 0;
   /// Takes a run at `place` for granted that gives what is expected there: only variances change.
   /// So that several places are chosen at a time.
@@ -30,6 +37,11 @@ class Surrogate {
   /// Fewest runs it can learn from.
   [[nodiscard]] virtual std::size_t fewest(std::size_t dimensions) const = 0;
 };
+
+/// The part of the variances of `errors` that `scatter` does not hold.
+std::vector<double> variances_above(const std::vector<double>& errors, double scatter);
+/// Their mean, for a run that is taken for granted.
+double mean_variance(const std::vector<double>& variances);
 
 /// Gaussian process on a linear trend,
 /// \f$ y = h(x)^T b + z(x) + e \f$, \f$ \mathrm{cov}(z) = s^2 \prod_d k(|x_d - x'_d| / l_d) \f$

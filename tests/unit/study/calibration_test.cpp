@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/calibration/calibration.hpp"
+#include "study/calibration/calibrate_runs.hpp"
 #include "study/calibration/landscape.hpp"
 
 #include "dust/sdk/random.hpp"
@@ -29,7 +30,7 @@ class Formula final : public Evaluator {
       Evaluation one;
       const auto values = answer_(place);
       for (std::size_t g = 0; g < values.size(); ++g) {
-        one.emplace_back(values[g] + scatter_[g] * normal(static_cast<std::uint32_t>(g)));
+        one.push_back({values[g] + scatter_[g] * normal(static_cast<std::uint32_t>(g)), error});
       }
       ++runs;
       all.push_back(std::move(one));
@@ -37,6 +38,7 @@ class Formula final : public Evaluator {
     return all;
   }
   std::size_t runs = 0;
+  double error = -1.0;  ///< that every run tells of itself
 
  private:
   double normal(std::uint32_t goal) const {
@@ -125,6 +127,54 @@ TEST_CASE("targets that do not pin the parameters down shall be told plainly") {
   CHECK(c.is_met);
   CHECK_FALSE(c.is_pinned);
   CHECK(c.statements.front().find("do not pin down mu_s") != std::string::npos);
+}
+
+TEST_CASE("errors that the runs tell shall widen the region where they exceed their scatter") {
+  // A value in proportion to the parameter: what is known of it is what is known of the target.
+  for (const std::string surrogate : {"gaussian_process", "quadratic"}) {
+    CAPTURE(surrogate);
+    const auto calibration_with = [&](double error, double scatter) {
+      CalibrationSettings settings;
+      settings.goals = {{"height", "m", 0.5, 0.01}};
+      settings.parameters = {{"x", "", 0.0, 1.0}};
+      settings.surrogate = surrogate;
+      settings.runs = 12;
+      Formula formula([](const std::vector<double>& x) { return std::vector{x[0]}; }, {scatter}, 1);
+      formula.error = error;
+      return calibrate(settings, formula);
+    };
+    const Calibration silent = calibration_with(-1.0, 0.0);
+    CHECK(silent.estimates[0].deviation == approx(0.01).epsilon(0.1));
+    CHECK(silent.run_errors.at(0).without == silent.run_errors[0].points);
+    CHECK(silent.run_errors[0].error < 0.0);
+    // Runs that agree by chance, each with an error of 0.1: twelve of them cannot know a mean
+    // better than 0.1 over the root of twelve, nor need they be worse than one of them.
+    const Calibration wide = calibration_with(0.1, 0.0);
+    CHECK(wide.run_errors.at(0).error == approx(0.1));
+    CHECK(wide.run_errors[0].without == 0);
+    CHECK(wide.estimates[0].deviation > std::hypot(0.01, 0.1 / std::sqrt(12.0)));
+    CHECK(wide.estimates[0].deviation < 0.11);
+    CHECK(wide.misfit < 0.1);
+    CHECK(std::abs(chi_of({"height", "m", 0.5, 0.01}, wide.at_best.at(0))) < 0.3);
+    // What scatters as much already is not counted twice.
+    const Calibration scattered = calibration_with(-1.0, 0.05);
+    const Calibration same = calibration_with(0.01, 0.05);
+    CHECK(same.estimates[0].deviation == scattered.estimates[0].deviation);
+    CHECK(same.estimates[0].best == scattered.estimates[0].best);
+  }
+}
+
+TEST_CASE("replicates shall have an error together if all of them tell one, else why not") {
+  const OutputValue mean = mean_of_replicates({{2.0, 0.3}, {4.0, 0.4}, {}});
+  CHECK(mean.value == 3.0);
+  CHECK(mean.error == approx(0.25));
+  CHECK(mean.no_error.empty());
+  const OutputValue poor =
+      mean_of_replicates({{2.0, 0.3}, {4.0, -1.0, "few grains"}, {6.0, -1.0, k_not_steady}});
+  CHECK(poor.value == 4.0);
+  CHECK(poor.error < 0.0);
+  CHECK(poor.no_error == k_not_steady);
+  CHECK_FALSE(mean_of_replicates({{}, {}}).value);
 }
 
 TEST_CASE("parameters that only count together shall be told as tied") {
@@ -232,7 +282,7 @@ TEST_CASE("runs that fail shall be left out, and an interruption end the search"
       std::vector<Evaluation> all;
       for (const auto& place : places) {
         Evaluation one(1);
-        if (++runs % 4 != 0) one[0] = place[0] * place[0];
+        if (++runs % 4 != 0) one[0].value = place[0] * place[0];
         all.push_back(one);
       }
       return all;

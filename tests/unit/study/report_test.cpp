@@ -23,10 +23,13 @@ class Lines final : public Evaluator {
       const std::vector<std::vector<double>>& places) override {
     std::vector<Evaluation> all;
     for (const auto& p : places) {
-      all.push_back({20.0 + 30.0 * p[0] + 20.0 * p[1], 5.0 + 2.0 * p[0] - 3.0 * p[1]});
+      all.push_back(
+          {{20.0 + 30.0 * p[0] + 20.0 * p[1], error, no_error}, {5.0 + 2.0 * p[0] - 3.0 * p[1]}});
     }
     return all;
   }
+  double error = -1.0;  ///< of the first
+  std::string no_error;
 };
 
 /// Speeds 1 and 2 m/s by angles 0 and 1 deg: x = 10 (speed - 1) + angle, expected to rise with
@@ -115,6 +118,37 @@ TEST_CASE("the report of a calibration shall draw the crossing and ask no other 
   CHECK(text.find("default-src 'none'") != std::string::npos);
   CHECK(text.find("d3.contours") != std::string::npos);
   CHECK(text.find("{{file:") == std::string::npos);
+}
+
+TEST_CASE("a calibration of points that are not steady shall say so, and be no good answer") {
+  CalibrationAnswer answer;
+  answer.settings.goals = {{"angle", "deg", 36.0, 1.0}, {"time", "s", 5.2, 0.1}};
+  answer.settings.parameters = {{"mu_s", "", 0.2, 0.7}, {"mu_r", "", 0.0, 0.5}};
+  const auto calibration_of = [&](double error, const std::string& no_error) {
+    Lines lines;
+    lines.error = error;
+    lines.no_error = no_error;
+    answer.calibration = calibrate(answer.settings, lines);
+    return calibration_json(answer);
+  };
+  const auto steady = calibration_of(0.2, "");
+  CHECK(steady["is_good"] == true);
+  CHECK(steady["targets"][0]["run_error"].get<double>() == approx(0.2));
+  CHECK(steady["targets"][0]["points_without_error"] == 0);
+  CHECK(steady["targets"][1]["run_error"].is_null());
+  CHECK(steady["targets"][1]["points_without_error"] == steady["places"]);
+  CHECK(std::abs(steady["targets"][0]["chi"].get<double>()) < 0.1);
+
+  const auto unsteady = calibration_of(-1.0, k_not_steady);
+  CHECK(unsteady["is_good"] == false);
+  CHECK(unsteady["targets"][0]["points_not_steady"] == unsteady["places"]);
+  CHECK(unsteady["targets"][0]["points_without_error"] == 0);
+  const std::string said = unsteady["statements"].dump();
+  const std::string places = unsteady["places"].dump();
+  CHECK(said.find("angle is not steady in " + places + " of " + places + " points: it may still") !=
+        std::string::npos);
+  CHECK(said.find("time has no error in " + places + " of " + places + " points") !=
+        std::string::npos);
 }
 
 TEST_CASE("the report of a study shall draw every effect with the lines it is made of") {

@@ -46,6 +46,27 @@ TEST_CASE("a Gaussian process shall pass through runs without scatter and follow
   CHECK(covered >= 180);
 }
 
+TEST_CASE("predictions shall carry the errors of runs that their scatter does not show") {
+  // A straight line without scatter through five places of a centred design: the mean of a full
+  // quadratic in the middle has the variance e^2 h (B'B)^-1 h, here 17/35 e^2.
+  const Sample places = {{0.1}, {0.3}, {0.5}, {0.7}, {0.9}};
+  const std::vector<double> values = {0.1, 0.3, 0.5, 0.7, 0.9};
+  const std::vector<double> errors(5, 0.2);
+  const auto quadratic = make_quadratic();
+  quadratic->fit(places, values, errors);
+  CHECK(quadratic->at({0.5}).variance == approx(17.0 / 35.0 * 0.04).epsilon(1e-6));
+  // One run taken for granted, with the same error, in the same place.
+  const double before = quadratic->at({0.5}).variance;
+  quadratic->add_virtual_run({0.5});
+  CHECK(quadratic->at({0.5}).variance < before);
+  const auto process = make_gaussian_process();
+  process->fit(places, values, errors);
+  CHECK(process->at({0.5}).variance > 0.04 / 5);
+  CHECK(process->at({0.5}).variance < 0.04 * 1.01);
+  process->fit(places, values);
+  CHECK(process->at({0.5}).variance < 1e-4);
+}
+
 TEST_CASE("a Gaussian process shall tell scatter of runs from the function") {
   Sample places = sobol(40, 1, 2);
   std::vector<double> values;
