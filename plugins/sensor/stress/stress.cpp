@@ -159,7 +159,7 @@ class Stress final : public sdk::Sensor {
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       const std::size_t cell = cell_of(g, i);
       if (cell == k_outside) continue;
-      samples_[cell].add(g.weight[i], g.mass[i]);
+      formula::add_grain(g.weight[i], g.mass[i], samples_[cell]);
       double* f = fields_.data() + k_fields * cell;
       const double m = g.weight[i] * g.mass[i];
       f[k_density] += m;

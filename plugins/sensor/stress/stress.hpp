@@ -101,14 +101,15 @@ struct Sample {
   double weight = 0.0;    ///< sum of w, real grains per computed one
   double mass = 0.0;      ///< [kg] sum of w m
   double squares = 0.0;   ///< [kg] sum of w^2 m
-
-  void add(double w, double m) {
-    ++count;
-    weight += w;
-    mass += w * m;
-    squares += w * w * m;
-  }
 };
+
+/// Adds a grain of mass `m` that stands for `w` real ones.
+inline void add_grain(double w, double m, Sample& sample) {
+  ++sample.count;
+  sample.weight += w;
+  sample.mass += w * m;
+  sample.squares += w * w * m;
+}
 
 /// What \f$ \sum w m v'_a v'_b \f$ has to be multiplied with, because v' is taken about the mean
 /// velocity of the same grains, which goes with them:

@@ -216,12 +216,12 @@ TEST_CASE("a feed shall count as even unless it begins, ends or changes while it
   CHECK_FALSE(sdk::BatchMeans(1).is_even(0));
   // Amounts per load: of a batch they are known, of a feed that ends or begins they are not.
   const auto steady = fed([](int) { return 1.0; });
-  const auto ending = fed([](int i) { return i < 600 ? 1.0 : 0.0; });
+  const auto stopping = fed([](int i) { return i < 600 ? 1.0 : 0.0; });
   const auto beginning = fed([](int i) { return i < 300 ? 0.0 : 1.0; });
   CHECK_FALSE(steady.is_uneven(0, 0.0));
   CHECK_FALSE(steady.is_uneven(0, 3.0));
-  CHECK_FALSE(ending.is_uneven(0, 0.0));
-  CHECK(ending.is_uneven(0, 3.0));
+  CHECK_FALSE(stopping.is_uneven(0, 0.0));
+  CHECK(stopping.is_uneven(0, 3.0));
   CHECK(beginning.is_uneven(0, 0.0));
   CHECK_FALSE(fed([](int) { return 0.0; }).is_uneven(0, 3.0));
   CHECK_FALSE(sdk::BatchMeans(1).is_uneven(0, 3.0));

@@ -172,15 +172,15 @@ TEST_CASE("light copies of grains shall press as the grains that they stand for"
 TEST_CASE("what a cell of few grains loses shall be given back, of a single one nothing") {
   formula::Sample s;
   CHECK(formula::unbiased(s) == 0.0);
-  s.add(1.0, 2e-6);
+  formula::add_grain(1.0, 2e-6, s);
   CHECK(formula::unbiased(s) == 0.0);
   for (int n = 2; n < 6; ++n) {
-    s.add(1.0, n % 2 == 0 ? 5e-6 : 1e-9);
+    formula::add_grain(1.0, n % 2 == 0 ? 5e-6 : 1e-9, s);
     CHECK(formula::unbiased(s) == approx(n / (n - 1.0)).epsilon(1e-12));
   }
   // Two of one mass, one of them for three: 1 - (9 + 1) / 16.
   formula::Sample weighted;
-  weighted.add(3.0, 1e-6);
-  weighted.add(1.0, 1e-6);
+  formula::add_grain(3.0, 1e-6, weighted);
+  formula::add_grain(1.0, 1e-6, weighted);
   CHECK(formula::unbiased(weighted) == approx(16.0 / 6.0).epsilon(1e-12));
 }
