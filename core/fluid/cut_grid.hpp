@@ -54,6 +54,9 @@ class CutGrid {
   void set_sinks(std::vector<Continuity::Sink>& sinks, double time) const {
     suction_.set_sinks(sinks, time);
   }
+  void set_mean_sinks(std::vector<Continuity::Sink>& sinks, Interval over) const {
+    suction_.set_mean_sinks(sinks, over);
+  }
 
  private:
   [[nodiscard]] std::unique_ptr<Geometry> static_part() const;

@@ -148,7 +148,7 @@ void FluidSolver::find_throughflow(FaceField& throughflow) const {
 }
 void FluidSolver::each_sink(
     const std::function<void(std::int32_t, double, std::int32_t)>& visit) const {
-  for (const Continuity::Sink& sink : impl_->sinks()) visit(sink.cell, sink.rate, sink.body);
+  for (const Continuity::Sink& sink : impl_->mean_sinks()) visit(sink.cell, sink.rate, sink.body);
 }
 const FluidReport& FluidSolver::report() const { return impl_->report(); }
 bool FluidSolver::has_moving_bodies() const { return impl_->has_moving_bodies(); }

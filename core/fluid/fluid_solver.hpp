@@ -88,11 +88,14 @@ class FluidSolver {
   /// On which side of bodies thinner than a cell a point is, and which faces they part. Stays where
   /// it is when bodies move.
   [[nodiscard]] const ThinBodies& thin_bodies() const;
-  /// [m/s] What passed the faces at the end of the last step, over their whole area, as continuity
-  /// has it: with the void fraction `after` of that step. Where bodies that move had the grid cut
-  /// several times in the step, the mean over it.
+  /// [m/s] What passed the faces in the last step, over their whole area, as continuity has it:
+  /// with the void fraction `after` of that step. The flow is that of its end, but for given flows
+  /// that vary in it: their mean, so that what has passed is their integral. Where bodies that move
+  /// had the grid cut several times in the step, the mean over it. Not from several threads at
+  /// once.
   void find_throughflow(FaceField& throughflow) const;
-  /// Calls visit(cell, rate [1/s] of the cell's volume, body) for what bodies draw out of cells.
+  /// Calls visit(cell, rate [1/s] of the cell's volume, body) for what bodies drew out of cells in
+  /// the last step, its mean.
   void each_sink(const std::function<void(std::int32_t, double, std::int32_t)>& visit) const;
   [[nodiscard]] const FluidReport& report() const;
 

@@ -207,6 +207,37 @@ void Sides::evaluate_pressure(double time) {
   for (int side = 0; side < 6; ++side) evaluate_at(side, k_pressure, time, nullptr);
 }
 
+bool Sides::Inflow::is_empty() const {
+  return std::all_of(velocity.begin(), velocity.end(), [](const auto& v) { return v.empty(); });
+}
+
+Sides::Inflow Sides::mean_inflow(Interval over, const CellField& eps) {
+  Inflow mean;
+  mean.passes_idle = has_inflow_;
+  for (int side = 0; side < 6; ++side) {
+    const int d = side / 2;
+    std::vector<double>& given = values_[side].velocity[d];
+    if (given.empty()) continue;
+    const std::vector<double> present = given;
+    const auto varying = time_mean(over, [&](double time) {
+      evaluate_at(side, d, time, &eps);
+      return given;
+    });
+    given = present;
+    if (!varying) continue;
+    mean.velocity[side] = *varying;
+    mean.passes_idle[d] = true;
+  }
+  return mean;
+}
+
+void Sides::swap_inflow(Inflow& other) {
+  for (int side = 0; side < 6; ++side) {
+    if (!other.velocity[side].empty()) values_[side].velocity[side / 2].swap(other.velocity[side]);
+  }
+  has_inflow_.swap(other.passes_idle);
+}
+
 void Sides::fill_component(std::vector<double>& v, int d, int direction, bool for_sweeps) const {
   const std::ptrdiff_t s = grid_.stride[direction];
   const int n = grid_.count[direction];

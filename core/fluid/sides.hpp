@@ -5,6 +5,7 @@
 #include "fluid/geometry/geometry.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/properties.hpp"
+#include "fluid/step/time_mean.hpp"
 
 #include <array>
 #include <vector>
@@ -25,6 +26,17 @@ class Sides {
   /// Asks the models for their velocities and pressures at `time`; `eps` with filled halo.
   void evaluate_velocity(double time, const CellField& eps);
   void evaluate_pressure(double time);
+  /// Velocities given normal to the sides; empty: as they are.
+  struct Inflow {
+    std::array<std::vector<double>, 6> velocity;
+    std::array<bool, 3> passes_idle{};  ///< directions that are idle but for it
+
+    [[nodiscard]] bool is_empty() const;
+  };
+  /// Their means over an interval of time, where they vary in it.
+  [[nodiscard]] Inflow mean_inflow(Interval over, const CellField& eps);
+  /// Takes `other` in place of the present ones, which it gives back.
+  void swap_inflow(Inflow& other);
   /// Halo such that linear interpolation meets the side's rule: mirrored, copied or wrapped.
   void fill_velocity(FaceField& u) const;
   /// The same, but for the halos along idle directions.

@@ -52,11 +52,11 @@ class FluidSolver::Impl {
   [[nodiscard]] const FaceField& open_area() const { return geometry().open_area; }
   [[nodiscard]] const ThinBodies& thin_bodies() const { return cut_.thin_bodies(); }
   [[nodiscard]] FaceField passable_area() const { return fluid::passable_area(grid_, geometry()); }
-  void find_throughflow(FaceField& throughflow) const {
+  void find_throughflow(FaceField& throughflow) {
     projection_.find_throughflow(u_, void_fraction_.field(), throughflow);
   }
-  [[nodiscard]] const std::vector<Continuity::Sink>& sinks() const {
-    return projection_.continuity().sinks();
+  [[nodiscard]] std::vector<Continuity::Sink> mean_sinks() const {
+    return projection_.mean_sinks();
   }
   [[nodiscard]] const FluidReport& report() const { return report_; }
   [[nodiscard]] const CellField* eddy_viscosity() const {

@@ -40,7 +40,10 @@ void FluidSolver::Impl::advance(double time, double step, const CellField& befor
     const double begin = static_cast<double>(cut) / cuts;
     const double end = cut + 1 == cuts ? 1.0 : (cut + 1.0) / cuts;
     last_share = advance_part(s, begin, end);
-    if (cuts > 1) projection_.add_throughflow(u_, void_fraction_.field(), end - begin);
+    if (cuts > 1) {
+      const Interval part{time + begin * step, time + end * step};
+      projection_.add_throughflow(u_, void_fraction_.field(), part, end - begin);
+    }
   }
   end_step(s, last_share);
 }
@@ -50,7 +53,7 @@ FluidSolver::Impl::StepState FluidSolver::Impl::begin_step(double time, double s
                                                            const CellField& after,
                                                            const Exchange& exchange) {
   report_ = {};
-  projection_.begin_step();
+  projection_.begin_step({time, time + step});
   const bool has_drag = has_coefficient(exchange);
   const bool is_clean = is_uniform(grid_, after, grid_.count, 1.0) &&
                         (&before == &after || is_uniform(grid_, before, grid_.count, 1.0));

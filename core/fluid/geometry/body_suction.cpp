@@ -154,14 +154,25 @@ void BodySuction::add_to(Geometry& geometry, const bodies::BodySet& bodies, doub
   }
 }
 
+void BodySuction::add_sinks(const Opening& opening, double flow,
+                            std::vector<Continuity::Sink>& sinks) {
+  for (std::size_t n = 0; n < opening.cell.size(); ++n) {
+    sinks.push_back(
+        {opening.cell[n], flow * opening.share[n], static_cast<std::int32_t>(opening.body)});
+  }
+}
+
 void BodySuction::set_sinks(std::vector<Continuity::Sink>& sinks, double time) const {
   sinks.clear();
   for (const Opening& opening : openings_) {
-    const double flow = opening.flow * opening.over_time(time);
-    for (std::size_t n = 0; n < opening.cell.size(); ++n) {
-      sinks.push_back(
-          {opening.cell[n], flow * opening.share[n], static_cast<std::int32_t>(opening.body)});
-    }
+    add_sinks(opening, opening.flow * opening.over_time(time), sinks);
+  }
+}
+
+void BodySuction::set_mean_sinks(std::vector<Continuity::Sink>& sinks, Interval over) const {
+  sinks.clear();
+  for (const Opening& opening : openings_) {
+    add_sinks(opening, opening.flow * opening.over_time.mean(over.begin, over.end), sinks);
   }
 }
 

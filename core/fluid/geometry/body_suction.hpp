@@ -6,6 +6,7 @@
 #include "fluid/geometry/geometry.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/pressure/continuity.hpp"
+#include "fluid/step/time_mean.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -26,6 +27,8 @@ class BodySuction {
   /// Adds the velocity into the openings to that of the surface's points.
   void add_to(Geometry& geometry, const bodies::BodySet& bodies, double time) const;
   void set_sinks(std::vector<Continuity::Sink>& sinks, double time) const;
+  /// The same with the mean flows over an interval of time.
+  void set_mean_sinks(std::vector<Continuity::Sink>& sinks, Interval over) const;
 
  private:
   struct Opening {
@@ -47,6 +50,7 @@ class BodySuction {
     bodies::Placement at;
   };
   enum class Cells { open, passable };
+  static void add_sinks(const Opening& opening, double flow, std::vector<Continuity::Sink>& sinks);
   void add_cells(Opening& opening, const Scene& scene, Cells which) const;
   [[nodiscard]] static bool holds(const Opening& opening, sdk::Vec3 p, double rounding);
   /// Share of the surface in the cell round `centre` that belongs to the opening. `facing`: where

@@ -3,6 +3,8 @@
 
 #include "fluid/parallel.hpp"
 
+#include <algorithm>
+
 namespace dust::fluid {
 
 using Ghosts = Momentum::Ghosts;
@@ -32,10 +34,11 @@ void Projection::project(FaceField& u, const CellField& eps, const FaceField& dr
   ghost_pressure_.fill(p_);
 }
 
-void Projection::add_throughflow(const FaceField& u, const CellField& eps, double share) {
+void Projection::add_throughflow(const FaceField& u, const CellField& eps, Interval part,
+                                 double share) {
   if (mean_throughflow_.component[0].empty()) mean_throughflow_ = FaceField(grid_);
   FaceField last(grid_);
-  continuity_.find_throughflow(u, eps, last);
+  find_part_throughflow(u, eps, part, last);
   for (int d = 0; d < 3; ++d) {
     auto& mean = mean_throughflow_.component[d];
     for (std::size_t o = 0; o < grid_.size; ++o) mean[o] += share * last.component[d][o];
@@ -43,12 +46,42 @@ void Projection::add_throughflow(const FaceField& u, const CellField& eps, doubl
 }
 
 void Projection::find_throughflow(const FaceField& u, const CellField& eps,
-                                  FaceField& throughflow) const {
+                                  FaceField& throughflow) {
   if (mean_throughflow_.component[0].empty()) {
-    continuity_.find_throughflow(u, eps, throughflow);
+    find_part_throughflow(u, eps, step_, throughflow);
   } else {
     throughflow = mean_throughflow_;
   }
+}
+
+std::vector<Continuity::Sink> Projection::mean_sinks() const {
+  std::vector<Continuity::Sink> sinks;
+  cut_.set_mean_sinks(sinks, step_);
+  return sinks;
+}
+
+/// The velocity at the end has the flows of the end. Where they vary, another one with their means
+/// takes its place, which differs by the potential flow between both.
+void Projection::find_part_throughflow(const FaceField& u, const CellField& eps, Interval part,
+                                       FaceField& throughflow) {
+  Sides::Inflow inflow = sides_.mean_inflow(part, eps);
+  std::vector<Continuity::Sink> sinks;
+  cut_.set_mean_sinks(sinks, part);
+  const auto has_rate = [](const auto& a, const auto& b) { return a.rate == b.rate; };
+  const auto& last = continuity_.sinks();
+  if (inflow.is_empty() &&
+      std::equal(sinks.begin(), sinks.end(), last.begin(), last.end(), has_rate)) {
+    continuity_.find_throughflow(u, eps, throughflow);
+    return;
+  }
+  FaceField mean = u;
+  sides_.swap_inflow(inflow);
+  continuity_.sinks().swap(sinks);
+  sides_.fill_velocity(mean);
+  correct(mean, eps, part.length());
+  continuity_.find_throughflow(mean, eps, throughflow);
+  continuity_.sinks().swap(sinks);
+  sides_.swap_inflow(inflow);
 }
 
 /// Without drag and without a change of the pressure.

@@ -8,6 +8,9 @@
 #include "fluid/pressure/continuity.hpp"
 #include "fluid/pressure/ghost_pressure.hpp"
 #include "fluid/sides.hpp"
+#include "fluid/step/time_mean.hpp"
+
+#include <vector>
 
 namespace dust::fluid {
 
@@ -31,16 +34,20 @@ class Projection {
 
   /// Of the solver, since begin_step().
   [[nodiscard]] int iterations() const { return iterations_; }
-  void begin_step() {
+  void begin_step(Interval step) {
     iterations_ = 0;
+    step_ = step;
     mean_throughflow_ = {};
   }
-  /// What passes the faces at the end of an interval between two cuts, `share` of the step; for
-  /// steps of several.
-  void add_throughflow(const FaceField& u, const CellField& eps, double share);
-  /// As Continuity::find_throughflow; in a step of several cuts the mean over it, which alone
-  /// obeys continuity from its beginning to its end.
-  void find_throughflow(const FaceField& u, const CellField& eps, FaceField& throughflow) const;
+  /// What passes the faces over an interval between two cuts, `share` of the step; for steps of
+  /// several.
+  void add_throughflow(const FaceField& u, const CellField& eps, Interval part, double share);
+  /// What passes the faces over the step, `u` being the velocity at its end, so that it obeys
+  /// continuity from its beginning to its end: that of the end, with the mean of given flows that
+  /// vary in the step; in a step of several cuts the mean over them.
+  void find_throughflow(const FaceField& u, const CellField& eps, FaceField& throughflow);
+  /// What bodies draw out of cells over the step.
+  [[nodiscard]] std::vector<Continuity::Sink> mean_sinks() const;
 
   /// Makes the velocity `u`, of the end of `step` [s] at `time` [s], obey continuity, and adds the
   /// increment to the pressure. `is_plain` as Continuity::project.
@@ -57,6 +64,8 @@ class Projection {
                        const FaceField& source, double step, double time);
 
  private:
+  void find_part_throughflow(const FaceField& u, const CellField& eps, Interval part,
+                             FaceField& throughflow);
   void correct(FaceField& u, const CellField& eps, double step);
   void find_first_pressure(const FaceField& u, FaceField& next, const CellField& eps,
                            const FaceField& source, double step, double time);
@@ -72,6 +81,7 @@ class Projection {
   CellField p_;                 ///< [Pa]
   FaceField zero_;              ///< no drag; empty until it is needed
   FaceField mean_throughflow_;  ///< [m/s] empty in steps of one cut
+  Interval step_;               ///< [s] the last one
   int iterations_ = 0;
   bool is_consistent_ = false;
 };
