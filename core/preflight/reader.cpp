@@ -9,6 +9,7 @@
 #include "preflight/places/periodic_check.hpp"
 #include "preflight/places/reach_check.hpp"
 #include "preflight/places/release_check.hpp"
+#include "preflight/places/resolved_check.hpp"
 #include "preflight/places/sensor_places.hpp"
 #include "scenario/diagnostics.hpp"
 
@@ -38,6 +39,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_liberation(read.setup, read.dust, registry);
   check_feeds(read.setup, read.dust, read.start.from.has_value(), models, diagnostics);
   check_body_places(read.setup, models, diagnostics);
+  check_resolved_at_thin_bodies(read.setup, models, diagnostics);
   check_bodies_at_periodic_sides(read.setup, models, diagnostics);
   check_reach(read.setup, models, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);

@@ -453,10 +453,12 @@ const ParameterSchema& CouplingBlock::schema() {
               "the fluid of the step before. Saves time on several cores; first order in the fluid "
               "step.")
         .optional();
-    s.texts(&CouplingBlock::resolved, "resolved",
-            "Materials whose grains are resolved: the fluid meets their surfaces (markers of an "
-            "immersed boundary) instead of a drag law. Each needs 8 cells or more across; drag, "
-            "voidage and fluid_forces are for the grains of the other materials.")
+    s.texts(
+         &CouplingBlock::resolved, "resolved",
+         "Materials whose grains are resolved: the fluid meets their surfaces (markers of an "
+         "immersed boundary) instead of a drag law. Each needs 8 cells or more across, and bodies "
+         "near it a cell's thickness; drag, voidage and fluid_forces are for the grains of the "
+         "other materials.")
         .refers_to(sdk::Refers::material)
         .optional();
     return s.build();

@@ -95,6 +95,39 @@ TEST_CASE("a body beside the domain shall be warned of however near it is") {
   CHECK_FALSE(is_missed("[-10, 50, 20 mm]", "[110, 70, 30 mm]"));
 }
 
+TEST_CASE("a body thinner than a cell shall be warned of where spheres are resolved") {
+  // Cells of 2.5 mm.
+  const auto warnings = [](const scenario::Override& shelf) {
+    const Said all = said({{"domain.boundaries.front.air", "{model: no_slip}"},
+                           {"domain.boundaries.back.air", "{model: static_pressure, pressure: 0}"},
+                           {"domain.boundaries.bottom.air", "{model: no_slip}"},
+                           {"domain.boundaries.top.air", "{model: static_pressure, pressure: 0}"},
+                           {"fluid", "{cells: [40, 20, 80], density: 970, viscosity: 0.37 Pa s}"},
+                           {"coupling", "{resolved: [sand]}"},
+                           {"emitters.feed",
+                            "{model: single, material: sand, diameters: [20 mm], "
+                            "positions: [[50, 25, 100 mm]]}"},
+                           shelf});
+    CHECK(all.errors == std::vector<std::string>{});
+    return all.warnings;
+  };
+  const auto is_thin = [&](const scenario::Override& shelf, const std::string& thickness) {
+    const auto all = warnings(shelf);
+    return std::any_of(all.begin(), all.end(), [&](const std::string& line) {
+      return line.find("bodies.shelf is " + thickness + " thick") != std::string::npos &&
+             line.find("thinner than a cell (2.5 mm)") != std::string::npos;
+    });
+  };
+  CHECK(is_thin({"bodies.shelf.max", "[110, 50, 22 mm]"}, "2 mm"));
+  CHECK(is_thin({"bodies.shelf.max", "[110, 50, 20.2 mm]"}, "200 um"));
+  CHECK(warnings({"bodies.shelf.max", "[110, 50, 22.5 mm]"}).empty());
+  CHECK(warnings({"bodies.shelf.max", "[110, 50, 30 mm]"}).empty());
+  CHECK(warnings({"bodies.shelf",
+                  "{shape: cylinder, material: sand, base: [-10, 25, 40 mm], axis: [1, 0, 0], "
+                  "length: 120 mm, radius: 8 mm}"})
+            .empty());
+}
+
 TEST_CASE("a body that ends at a periodic side shall be refused with where it may end") {
   const std::string sides = "bodies.shelf: ends near the periodic sides left and right";
   const auto shelf = [](const std::string& from, const std::string& to) {
