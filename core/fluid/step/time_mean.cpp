@@ -12,6 +12,8 @@ constexpr int k_parts = 8;
 /// Of the largest number: what halving a part once more may change its contribution by.
 constexpr double k_exact = 1e-11;
 constexpr int k_max_halvings = 48;
+/// Enough for a dozen jumps in the interval; what varies like noise is not followed further.
+constexpr int k_max_samples = 2000;
 
 using Numbers = std::vector<double>;
 
@@ -36,13 +38,14 @@ class PartSum {
 
   void add(const Part& whole, int halvings) {
     const double half = 0.5 * whole.length;
+    samples_ += 2;
     Part low{whole.begin, half, whole.first, f_(whole.begin + 0.5 * half), whole.middle};
     Part high{whole.begin + half, half, whole.middle, f_(whole.begin + 1.5 * half), whole.last};
     double change = 0.0;
     for (std::size_t n = 0; n < sum_.size(); ++n) {
       change = std::max(change, std::abs(low.simpson(n) + high.simpson(n) - whole.simpson(n)));
     }
-    if (change <= tolerance_ || halvings == k_max_halvings) {
+    if (change <= tolerance_ || halvings == k_max_halvings || samples_ > k_max_samples) {
       for (std::size_t n = 0; n < sum_.size(); ++n) sum_[n] += low.simpson(n) + high.simpson(n);
       return;
     }
@@ -55,6 +58,7 @@ class PartSum {
   const TimeFunction& f_;
   double tolerance_;
   Numbers sum_;
+  int samples_ = 0;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 using namespace dust;
 using namespace dust::test;
@@ -198,4 +199,18 @@ TEST_CASE("a flow switched on within a step shall act as from the middle of it, 
   MESSAGE("difference at steps of 4 and 2 ms: ", coarse, " ", fine);
   CHECK(coarse < 0.03);
   CHECK(order(coarse, fine) > 1.8);
+}
+
+TEST_CASE("the mean over time of numbers that vary like noise shall be found in bounded work") {
+  int samples = 0;
+  const dust::fluid::TimeFunction noise = [&](double time) {
+    ++samples;
+    const double hash = 43758.5453 * std::sin(12.9898e6 * time);
+    return std::vector<double>{hash - std::floor(hash)};
+  };
+  const auto mean = dust::fluid::time_mean({0.0, 1.0}, noise);
+  REQUIRE(mean.has_value());
+  CHECK((*mean)[0] > 0.3);
+  CHECK((*mean)[0] < 0.7);
+  CHECK(samples < 5000);
 }
