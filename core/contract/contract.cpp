@@ -6,6 +6,8 @@
 #include "contract/as_kind.hpp"
 #include "contract/input/default_values.hpp"
 #include "contract/rule_runner.hpp"
+#include "registry/crash_notice.hpp"
+#include "registry/guard_report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -292,11 +294,13 @@ std::vector<RuleResult> check_model(const registry::Entry& entry, const Options&
     }
   }
   const Kind* kind = find_kind(entry.info.kind);
+  const std::string who = registry::identity_of(entry);
+  const registry::Asking asking(who.c_str(), " was tried with values for its parameters");
   const ModelUnderTest model_under_test{entry.info, values_in_scene(entry, kind, options.given)};
   const Maker make = [&](const Units& units) {
     return entry.factory(in_units(units, entry.info.parameters, model_under_test.values));
   };
-  RuleRunner runner(options.allocations);
+  RuleRunner runner(options.allocations, who);
   runner.rule("says what it is: equation, source, parameters",
               [&] { check_description(entry.info); });
   if (kind == nullptr) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contract/rule_runner.hpp"
 
+#include "registry/crash_notice.hpp"
+
 #include <map>
 
 namespace dust::contract {
 
 void RuleRunner::rule(const std::string& rule, const std::function<void()>& check) {
   RuleResult result{rule, Verdict::pass, {}};
+  const registry::Asking asking(who_.c_str(), " was tested by the rule: ", rule.c_str());
   try {
     check();
   } catch (const Remark& remark) {

@@ -29,7 +29,9 @@ class Remark : public std::runtime_error {
 /// Applies rules and keeps the results.
 class RuleRunner {
  public:
-  explicit RuleRunner(std::uint64_t (*counter)()) : allocations_(counter) {}
+  /// `who` is the model, for the notice of a crash.
+  explicit RuleRunner(std::uint64_t (*counter)(), std::string who = "a model")
+      : allocations_(counter), who_(std::move(who)) {}
 
   /// `rule` is a sentence "it shall ..."; `check` throws Violation or Remark, or returns.
   void rule(const std::string& rule, const std::function<void()>& check);
@@ -42,6 +44,7 @@ class RuleRunner {
  private:
   std::vector<RuleResult> results_;
   std::uint64_t (*allocations_)();
+  std::string who_;
 };
 
 /// A number a model gave, with its name for messages.

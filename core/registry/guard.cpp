@@ -19,6 +19,12 @@ class Guarded : public Kind {
  public:
   Guarded(std::unique_ptr<sdk::Model> model, GuardReport faults)
       : model_(as_kind(std::move(model), faults)), faults_(std::move(faults)) {}
+  ~Guarded() override {
+    const Asking asking(faults_.who().c_str(), " was asked for ", "its destructor");
+    model_.reset();
+  }
+  Guarded(const Guarded&) = delete;
+  Guarded& operator=(const Guarded&) = delete;
   void save(sdk::ArchiveWriter& a) const override {
     faults_.call("save", "its state", [&] { model_->save(a); });
   }

@@ -14,8 +14,11 @@ std::string shown(double value) {
 
 }  // namespace
 
-GuardReport::GuardReport(const Entry& entry)
-    : who_(entry.info.kind + "/" + entry.info.name + " (" + entry.file.string() + ")") {}
+std::string identity_of(const Entry& entry) {
+  return entry.info.kind + "/" + entry.info.name + " (" + entry.file.string() + ")";
+}
+
+GuardReport::GuardReport(const Entry& entry) : who_(identity_of(entry)) {}
 
 void GuardReport::thrown(const char* function, const char* expected,
                          const std::string& what) const {

@@ -3,6 +3,7 @@
 
 #include "base/finite.hpp"
 #include "dust/sdk/error.hpp"
+#include "registry/crash_notice.hpp"
 #include "registry/registry.hpp"
 
 #include <cstddef>
@@ -13,6 +14,9 @@
 
 namespace dust::registry {
 
+/// "drag/rough (/x/rough.so)".
+std::string identity_of(const Entry& entry);
+
 /// How a guarded model's faults are told: "drag/rough (/x/rough.so) ...; expected: ...".
 class GuardReport {
  public:
@@ -20,11 +24,13 @@ class GuardReport {
   using Inputs = std::initializer_list<std::pair<const char*, const double*>>;
 
   explicit GuardReport(const Entry& entry);
+  [[nodiscard]] const std::string& who() const { return who_; }
 
   /// Calls and passes the answer on. ParameterErrors go through: they have a place in the scenario.
   template <class Call>
   std::invoke_result_t<Call> call(const char* function, const char* expected,
                                   const Call& call) const {
+    const Asking asking(who_.c_str(), " was asked for ", function);
     try {
       return call();
     } catch (const sdk::ParameterError&) {

@@ -2,6 +2,7 @@
 #include "registry/library.hpp"
 
 #include "base/error.hpp"
+#include "registry/crash_notice.hpp"
 
 #include <boost/dll/shared_library.hpp>
 
@@ -39,6 +40,8 @@ std::string loader_message(std::string text) {
 }
 
 boost::dll::shared_library open(const fs::path& file) {
+  const std::string name = file.string();
+  const Asking asking(name.c_str(), " was loaded");
   try {
     // All symbols now: a missing one is told here and not in the middle of a run.
     return boost::dll::shared_library(file, boost::dll::load_mode::rtld_now);
@@ -142,8 +145,12 @@ std::vector<Entry> load_library(const fs::path& file) {
                      "' (DUST_PLUGIN defines it)");
   }
   open_libraries().push_back(library);
+  const bool is_shipped = library.has("dust_shipped");
+  if (!is_shipped) note_foreign_library(file);
   compare(file, library.get<const sdk::Handshake>("dust_handshake"));
-  Collector collector(file, library.has("dust_shipped"));
+  Collector collector(file, is_shipped);
+  const std::string name = file.string();
+  const Asking asking(name.c_str(), " registered its models");
   try {
     library.get<void(sdk::Registrar&)>("dust_register")(collector);
   } catch (const std::exception& problem) {

@@ -2,7 +2,9 @@
 #include "registry/registry.hpp"
 
 #include "base/error.hpp"
+#include "registry/crash_notice.hpp"
 #include "registry/guard.hpp"
+#include "registry/guard_report.hpp"
 #include "registry/library.hpp"
 #include "setup/mark.hpp"
 
@@ -172,6 +174,8 @@ std::unique_ptr<sdk::Model> Registry::create(const scenario::ModelChoice& choice
   if (entry == nullptr) {
     throw base::UserError(prefix + "unknown " + choice.kind + " model '" + choice.name + "'");
   }
+  const std::string who = identity_of(*entry);
+  const Asking asking(who.c_str(), " was made");
   try {
     auto model = entry->factory(choice.values);
     const bool is_tested = entry->file.empty() || entry->is_shipped;

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -45,7 +46,37 @@ void check_run(const std::string& library, const std::string& law, const std::st
   CHECK(fs::exists(out / "checkpoint.h5"));
 }
 
+/// The engine ends by `signal` and has said what it asked of a law of the library `crashes`.
+void check_crash(const std::vector<std::string>& arguments, int signal, const std::string& name,
+                 const std::string& law, const std::string& asked) {
+  const auto run = engine(arguments);
+  INFO(run.err);
+  CHECK(run.status == 128 + signal);
+  const std::string file = k_folder / "crashes/crashes.so";
+  CHECK(run.err.ends_with("error: crashed (" + name + ") while drag/" + law + " (" + file + ") " +
+                          asked + "; loaded plugins that are not the engine's own: " + file +
+                          "\n"));
+}
+
 }  // namespace
+
+TEST_CASE("a plugin that crashes shall end the engine by its signal, with what it was asked") {
+  const TemporaryFolder folder;
+  const std::string gave_up = "SIGABRT, its own code gave up";
+  auto run = with_drag("run", "crashes", "gives_up");
+  run.insert(run.end(), {"-o", folder / "run", "--quiet"});
+  check_crash(run, SIGABRT, gave_up, "gives_up", "was asked for evaluate");
+  check_crash(with_drag("check", "crashes", "stillborn"), SIGABRT, gave_up, "stillborn",
+              "was made");
+  check_crash({"test-plugin", k_folder / "crashes/crashes.so"}, SIGABRT, gave_up, "gives_up",
+              "was tried with values for its parameters");
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they report it themselves
+  run = with_drag("run", "crashes", "null_pointer");
+  run.insert(run.end(), {"-o", folder / "other_run", "--quiet"});
+  check_crash(run, SIGSEGV, "SIGSEGV, memory that it may not use", "null_pointer",
+              "was asked for evaluate");
+#endif
+}
 
 TEST_CASE("a plugin that throws in a batch shall end the run with kind, name, file and words") {
   check_run("throws_in_batch", "brittle",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/engine.hpp"
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,6 +24,8 @@ pid_t start(const std::vector<std::string>& arguments, const fs::path& out, cons
       freopen(err.c_str(), "w", stderr) == nullptr) {
     _exit(127);
   }
+  const rlimit no_core_dumps{0, 0};  // some tests crash on purpose
+  setrlimit(RLIMIT_CORE, &no_core_dumps);
   std::vector<char*> argv;
   std::string program = DUST_ENGINE;
   argv.push_back(program.data());

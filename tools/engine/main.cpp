@@ -4,6 +4,7 @@
 #include "commands.hpp"
 #include "memory/huge_pages.hpp"
 #include "program/program.hpp"
+#include "registry/crash_notice.hpp"
 #include "scenario/text/suggest.hpp"
 
 #include <algorithm>
@@ -94,6 +95,7 @@ int engine_main(int argc, char** argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   complete_arguments(app, arguments);
   if (!arguments.empty() && arguments.front() == "run") engine::ask_for_huge_pages(argv);
+  registry::report_crashes();
   std::reverse(arguments.begin(), arguments.end());
   try {
     app.parse(arguments);

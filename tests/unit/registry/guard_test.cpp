@@ -4,11 +4,13 @@
 #include "registry/guard.hpp"
 
 #include "base/error.hpp"
+#include "registry/crash_notice.hpp"
 #include "registry/registry.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <memory>
 #include <string>
@@ -116,6 +118,19 @@ struct Drag final : Trial<sdk::DragLaw> {
     b.factor[1] = deed(what, 2.0);
   }
   bool needs_size_ratio() const override { return true; }
+};
+
+/// The line that a crash would be reported with here.
+std::string crash_line() {
+  char room[1000];
+  return {room, registry::write_crash_text(SIGSEGV, room)};
+}
+
+/// Notes that line where it is asked.
+struct NotingDrag final : Trial<sdk::DragLaw> {
+  using Trial::Trial;
+  void evaluate(const sdk::DragBatch&) const override { *line = crash_line(); }
+  std::string* line = nullptr;
 };
 
 struct FluidForce final : Trial<sdk::FluidForce> {
@@ -533,4 +548,21 @@ TEST_CASE("grains that an emitter has not announced shall be said_of as its own"
   CHECK(said_of([](Emitter& e) { e.material = 1; }) ==
         "emitter/trial (/x/trial.so) gives material = 1" + row +
             "an index into its 1 materials(), or -1 for the emitter's own");
+}
+
+TEST_CASE("a crash shall be reported with the guarded model that is asked, and no longer") {
+  std::string line;
+  const auto drag = guard_with<NotingDrag>([&](NotingDrag& d) { d.line = &line; });
+  drag->evaluate({});
+  const std::string start = "error: crashed (SIGSEGV, memory that it may not use)";
+  CHECK(line.starts_with(start + " while drag/trial (/x/trial.so) was asked for evaluate; "));
+  CHECK(crash_line().starts_with(start + "; no plugins but the engine's own are loaded: "));
+  registry::note_foreign_library("/x/trial.so");
+  registry::note_foreign_library("/x/other.so");
+  CHECK(crash_line() == start +
+                            " while no model of others was asked; loaded plugins that are not the "
+                            "engine's own: /x/trial.so, /x/other.so\n");
+  char little[10];
+  CHECK(registry::write_crash_text(SIGSEGV, little) == 10);
+  CHECK(std::string(little, 10) == "error: cr\n");
 }
