@@ -21,11 +21,18 @@ using sdk::Value;
 
 bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-/// Name of the first reading that differs, "" if none does.
+/// Name of the first reading that differs with both answers, "" if none does.
 std::string first_difference(const Observations& a, const Observations& b) {
-  if (a.size() != b.size()) return "the number of results";
+  constexpr int k_all_digits = 17;
+  if (a.size() != b.size()) {
+    return "the number of results (" + std::to_string(a.size()) + ", " + std::to_string(b.size()) +
+           ")";
+  }
   for (std::size_t n = 0; n < a.size(); ++n) {
-    if (a[n].name != b[n].name || !is_same(a[n].value, b[n].value)) return a[n].name;
+    if (a[n].name != b[n].name) return a[n].name + " (once '" + b[n].name + "')";
+    if (is_same(a[n].value, b[n].value)) continue;
+    return a[n].name + " (" + base::digits_text(a[n].value, k_all_digits) + ", " +
+           base::digits_text(b[n].value, k_all_digits) + ")";
   }
   return {};
 }
@@ -85,7 +92,10 @@ void check_units(const Kind& kind, const Maker& make) {
   constexpr double k_rounding = 1e-6;
   const Observations here = kind.observe(make, {});
   const Observations there = kind.observe(make, {.units = kind.other_units});
-  require(here.size() == there.size(), "the number of results depends on the units");
+  require(here.size() == there.size(),
+          "the number of results depends on the units: " + std::to_string(here.size()) + ", and " +
+              std::to_string(there.size()) +
+              " where everything is given in others; a number has a hidden unit");
   const auto largest = sizes(here);
   for (std::size_t n = 0; n < here.size(); ++n) {
     if (!here[n].has_dimension) continue;
@@ -249,19 +259,25 @@ void check_common(const registry::Entry& entry, const Kind& kind, const Maker& m
                   const std::vector<Value>& values, const Options& options, RuleRunner& runner) {
   runner.rule("gives finite numbers, all of them", [&] {
     for (const Observation& r : kind.observe(make, {})) {
-      require(std::isfinite(r.value), r.name + " is not finite, or is not written");
+      require(std::isfinite(r.value),
+              r.name + " is " + shown(r.value) +
+                  ": not finite, or is not written; expected: a finite number");
     }
   });
   runner.rule("gives the same bits when asked again", [&] {
     const std::string what = first_difference(kind.observe(make, {}), kind.observe(make, {}));
-    require(what.empty(), what + " differs between two models of the same parameters");
+    require(what.empty(),
+            what +
+                " differs between two models of the same parameters: nothing may come from "
+                "outside, for example from a clock or memory that is not set");
   });
   if (!kind.batches.empty()) {
     runner.rule("gives the same bits however its batch is split", [&] {
       const Observations whole = kind.observe(make, {});
       for (const std::size_t batch : kind.batches) {
         const std::string what = first_difference(whole, kind.observe(make, {.batch = batch}));
-        require(what.empty(), what + " differs in batches of " + std::to_string(batch));
+        require(what.empty(), what + " differs in batches of " + std::to_string(batch) +
+                                  ": a row may depend on its own input alone");
       }
     });
   }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -126,14 +127,22 @@ Observations observe(const Maker& make, const TestVariant& variant) {
   return observations;
 }
 
+std::string text_of(SideRule rule) {
+  const char* const texts[] = {"fixed", "gradient", "pressure", "periodic"};
+  const auto n = static_cast<std::size_t>(rule);
+  return n < std::size(texts) ? texts[n] : "no SideRule, " + std::to_string(n);
+}
+
 void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
   runner.rule("asks for a combination that determines the flow", [&] {
     const sdk::SideRules r = make_as<sdk::BoundaryCondition>(make)->rules();
     require(r.tangential_velocity == SideRule::fixed || r.tangential_velocity == SideRule::gradient,
-            "the tangential velocity must be fixed or have zero gradient");
+            "the tangential velocity must be fixed or have zero gradient; rules() answers " +
+                text_of(r.tangential_velocity));
     require(sdk::can_be_solved(r),
             "normal velocity and pressure must be fixed and gradient (walls, inlets), or gradient "
-            "and fixed or total pressure (open sides)");
+            "and fixed or total pressure (open sides); rules() answers " +
+                text_of(r.normal_velocity) + " and " + text_of(r.pressure));
   });
 }
 

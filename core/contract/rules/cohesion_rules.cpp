@@ -175,17 +175,20 @@ void check_attracts(const Maker& make) {
     bench.evaluate(*law, 0);
     for (std::size_t n = 0; n < bench.count(); ++n) {
       const double force = bench.at(CohesionBench::attraction, n);
-      require(force >= 0.0, "it pushes: the attraction is " + shown(force) + " N");
+      require(force >= 0.0,
+              "it pushes: the attraction is " + shown(force) + " N; expected: 0 or above");
       if (is_viscous(*law)) {
-        require(force == 0.0, "resting_overlap() is 0, and a pair at rest is attracted");
+        require(force == 0.0, "resting_overlap() is 0, and a pair at rest is attracted with " +
+                                  shown(force) + " N; expected: 0, or where it rests");
         continue;
       }
-      require(look > 0 || force > 0.0, "a pair in touch is not attracted");
+      require(look > 0 || force > 0.0, "a pair in touch is not attracted: " + shown(force) +
+                                           " N where resting_overlap() is above 0");
       if (look < k_beyond || look > k_looks - k_beyond) continue;
       const bool is_beyond = overlaps_at(look, pairs.overlaps, pull(*law, pairs.largest))[n] <
                              -law->range(pairs.largest);
       require(!is_beyond || (force == 0.0 && bench.at(CohesionBench::contact_overlap, n) <= 0.0),
-              "a pair beyond range() still feels " + shown(force) + " N");
+              "a pair beyond range() still feels " + shown(force) + " N; expected: 0");
     }
   }
 }
@@ -212,21 +215,28 @@ void check_resists(const Maker& make) {
                                         " N of attraction to a pair that parts at " + shown(speed) +
                                         " m/s: that drives it");
       require(overlaps[n % overlaps.size()] >= -law->range(pairs.largest) || added == 0.0,
-              "a pair beyond range() still resists with " + shown(added) + " N");
+              "a pair beyond range() still resists with " + shown(added) + " N; expected: 0");
       resists = resists || added != 0.0;
     }
   }
-  require(resists || !is_viscous(*law), "it neither attracts at rest nor resists motion");
+  require(resists || !is_viscous(*law),
+          "it neither attracts at rest nor resists motion: 0 N for every pair that was shown");
 }
 
 void check_range(const Maker& make) {
   const auto law = make_law(make);
   for (double radius = 1e-6; radius < 0.1; radius *= 2.0) {
     const double range = law->range(radius);
-    require(std::isfinite(range) && range >= 0.0, "range() is " + shown(range) + " m");
-    require(law->range(2.0 * radius) >= range,
-            "range() falls as grains grow: the core asks for the largest pair alone");
-    require(law->resting_overlap(radius) >= 0.0, "resting_overlap() is below 0");
+    require(std::isfinite(range) && range >= 0.0, "range(" + shown(radius) + " m) is " +
+                                                      shown(range) +
+                                                      " m; expected: a finite length from 0 on");
+    const double farther = law->range(2.0 * radius);
+    require(farther >= range, "range() falls as grains grow, from " + shown(range) + " m to " +
+                                  shown(farther) + " m at twice the radius of " + shown(radius) +
+                                  " m: the core asks for the largest pair alone");
+    const double rest = law->resting_overlap(radius);
+    require(rest >= 0.0, "resting_overlap(" + shown(radius) + " m) is " + shown(rest) +
+                             " m; expected: from 0 on");
   }
 }
 

@@ -33,7 +33,8 @@ double small_step(const sdk::ContactLaw& law, const Units& units) {
     step = std::min(step, law.half_period(t.radius * units.length, t.mass * units.mass,
                                           t.overlap * units.length));
   }
-  require(step > 0.0 && std::isfinite(step), "half_period is not a positive time");
+  require(step > 0.0 && std::isfinite(step),
+          "half_period is " + shown(step) + " s; expected: a finite time above 0");
   return step / units.time / 50.0;
 }
 
@@ -120,7 +121,8 @@ Impact run_impact(const sdk::ContactLaw& law, double speed, double tangential, d
   const double mass = 2500.0 * sdk::sphere_volume(2.0 * k_radius);
   const double inertia = sdk::sphere_inertia(mass, k_radius);
   const double step = law.collision_time(k_radius, mass, speed) / steps;
-  require(step > 0.0 && std::isfinite(step), "collision_time is not a positive time");
+  require(step > 0.0 && std::isfinite(step),
+          "collision_time is " + shown(step * steps) + " s; expected: a finite time above 0");
   ContactBench bench(1, law.history_size());
   Vec3 velocity{-speed, tangential, 0.0};  // half a step behind the overlap
   double rotation = 0.0;                   // about z, as well

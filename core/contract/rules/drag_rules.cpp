@@ -70,7 +70,9 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
     const Columns c = evaluate(make, {});
     std::string falls;
     for (std::size_t n = 0; n < c.factor.size(); ++n) {
-      require(c.factor[n] >= 0.0, "F = " + shown(c.factor[n]) + " at Re " + shown(c.reynolds[n]));
+      require(c.factor[n] >= 0.0, "F = " + shown(c.factor[n]) + " at Re " + shown(c.reynolds[n]) +
+                                      ", void fraction " + shown(c.void_fraction[n]) +
+                                      "; expected: from 0 on");
       if (n % k_per_void_fraction == 0) continue;
       const std::string where = " between Re " + shown(c.reynolds[n - 1]) + " and " +
                                 shown(c.reynolds[n]) + " at void fraction " +
@@ -78,7 +80,8 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
       const double growth = c.reynolds[n] / c.reynolds[n - 1];
       // A force that falls drives grains apart. Printed laws have steps where two fits meet.
       require(!(c.factor[n] * growth < (1.0 - k_step_of_fits) * c.factor[n - 1]),
-              "the force falls" + where);
+              "the force falls" + where + ": F from " + shown(c.factor[n - 1]) + " to " +
+                  shown(c.factor[n]) + ", F Re has to grow");
       if (c.factor[n] < c.factor[n - 1] && falls.empty()) falls = where;
     }
     if (!falls.empty()) throw Remark("F, the force over Stokes's, falls" + falls);

@@ -88,8 +88,11 @@ Observations observe(const Maker& make, const TestVariant& variant) {
 void check_seeds(const Maker& make) {
   const auto emitter = make_as<sdk::Emitter>(make);
   const std::vector<double> sizes = emitter->diameters();
+  std::string listed;
+  for (const double size : sizes) listed += " " + shown(size) + " m";
   require(!sizes.empty() && std::is_sorted(sizes.begin(), sizes.end()) && sizes.front() > 0.0,
-          "diameters() must be positive and ascending");
+          "diameters() must be positive and ascending, answers" +
+              (listed.empty() ? " none" : ":" + listed));
   const double fastest = emitter->largest_speed() * (1.0 + 1e-9);
   std::size_t count = 0;
   for (int n = 0; n < 200 && count < k_enough; ++n) {
@@ -100,16 +103,18 @@ void check_seeds(const Maker& make) {
     for (const sdk::InsertionRequest& s : requests) {
       require(s.time >= context.begin && s.time < context.end,
               "a request for " + shown(s.time) + " s comes in the interval from " +
-                  shown(context.begin) + " s");
+                  shown(context.begin) + " s to " + shown(context.end) + " s");
       require(
           s.diameter >= sizes.front() * (1.0 - 1e-9) && s.diameter <= sizes.back() * (1.0 + 1e-9),
-          "a grain of " + shown(s.diameter) + " m is outside diameters()");
+          "a grain of " + shown(s.diameter) + " m is outside diameters(), " + shown(sizes.front()) +
+              " m to " + shown(sizes.back()) + " m");
       require(norm(s.velocity) <= fastest, "a grain starts with " + shown(norm(s.velocity)) +
                                                " m/s, told are " + shown(emitter->largest_speed()));
-      require(s.weight > 0.0 && std::isfinite(s.weight), "a weight is " + shown(s.weight));
+      require(s.weight > 0.0 && std::isfinite(s.weight),
+              "a weight is " + shown(s.weight) + "; expected: finite, above 0");
     }
   }
-  require(count > 0, "no grain comes in 0.2 s");
+  require(count > 0, "no grain comes in 0.2 s; give a flow or a beginning with --set");
 }
 
 void check_mass(const Maker& make) {
@@ -159,7 +164,10 @@ void check_restart(const Maker& make) {
       require(a[n].time == b[n].time && a[n].position == b[n].position &&
                   a[n].velocity == b[n].velocity && a[n].diameter == b[n].diameter &&
                   a[n].weight == b[n].weight,
-              when + "seed " + std::to_string(n) + " differs");
+              when + "request " + std::to_string(n) + " differs: a grain of " +
+                  shown(b[n].diameter) + " m at " + shown(b[n].time) +
+                  " s, expected: " + shown(a[n].diameter) + " m at " + shown(a[n].time) +
+                  " s (save and load keep its state)");
     }
   }
 }

@@ -172,6 +172,10 @@ Observations observe(const Maker& make, const TestVariant& variant) {
   return observations;
 }
 
+std::string shown_vector(const Vec3& v) {
+  return "(" + shown(v.x) + ", " + shown(v.y) + ", " + shown(v.z) + ")";
+}
+
 void check_frame(const sdk::FluidForce& model, const Frame& frame, const std::string& what) {
   // Sums in another order: a few roundings of the largest component.
   constexpr double k_rounding = 1e-12;
@@ -180,9 +184,14 @@ void check_frame(const sdk::FluidForce& model, const Frame& frame, const std::st
   for (std::size_t g = 0; g < k_grains; ++g) {
     const Vec3 expected = frame.turn(force_on(here, g));
     require(norm(force_on(there, g) - expected) <= k_rounding * norm(expected),
-            "the force on grain " + std::to_string(g) + " differs " + what);
+            "the force on grain " + std::to_string(g) + " differs " + what + ": " +
+                shown_vector(force_on(there, g)) + " N, expected: " + shown_vector(expected) +
+                " N");
     require(there.added_mass[g] == here.added_mass[g] && there.resistance[g] == here.resistance[g],
-            "added mass or resistance of grain " + std::to_string(g) + " differs " + what);
+            "added mass or resistance of grain " + std::to_string(g) + " differs " + what + ": " +
+                shown(there.added_mass[g]) + " kg and " + shown(there.resistance[g]) +
+                " kg/s, expected: " + shown(here.added_mass[g]) + " kg and " +
+                shown(here.resistance[g]) + " kg/s; expected: from 0 on");
   }
 }
 
@@ -191,7 +200,7 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
     const Result r = evaluate(*make_as<sdk::FluidForce>(make), {}, {}, true);
     for (std::size_t g = 0; g < k_grains; ++g) {
       require(norm(force_on(r, g)) == 0.0,
-              shown(norm(force_on(r, g))) + " N on grain " + std::to_string(g));
+              shown(norm(force_on(r, g))) + " N on grain " + std::to_string(g) + "; expected: 0");
     }
   });
   runner.rule("turns with the frame and mirrors with it", [&] {
@@ -211,10 +220,11 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
     const auto model = make_as<sdk::FluidForce>(make);
     const Result r = evaluate(*model, {});
     for (std::size_t g = 0; g < k_grains; ++g) {
-      require(r.added_mass[g] >= 0.0, "added mass " + shown(r.added_mass[g]) + " kg");
+      require(r.added_mass[g] >= 0.0,
+              "added mass " + shown(r.added_mass[g]) + " kg; expected: from 0 on");
       require(r.resistance[g] >= 0.0, "resistance " + shown(r.resistance[g]) + " kg/s");
       require(r.resistance[g] == 0.0 || g % 3 == 0,
-              "resistance " + shown(r.resistance[g]) + " kg/s where no wall is near");
+              "resistance " + shown(r.resistance[g]) + " kg/s where no wall is near; expected: 0");
     }
   });
   runner.rule("what it takes over is contained in the momentum set", [&] {
@@ -222,8 +232,11 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
     const sdk::FluidForceParts parts = model->takes_over();
     const bool takes = parts.pressure_gradient || parts.viscous_stress || parts.buoyancy;
     const bool is_contained = model->reaction() == sdk::FluidForceReaction::momentum_set;
-    require(takes == is_contained, takes ? "the fluid would get it a second time"
-                                         : "no part of the fluid's equation holds it");
+    require(takes == is_contained,
+            takes ? "takes_over() names a part and reaction() is not momentum_set: the "
+                    "fluid would get it a second time"
+                  : "reaction() is momentum_set and takes_over() names no "
+                    "part: no part of the fluid's equation holds it");
   });
 }
 

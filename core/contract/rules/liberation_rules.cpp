@@ -154,19 +154,19 @@ void check_amounts(const Bench& bench) {
   for (const auto* out : {&bench.in_contacts, &bench.in_wind}) {
     for (std::size_t at = 0; at < k_classes * k_rows; ++at) {
       const double mass = (*out)[at];
-      require(mass >= 0.0, shown(mass) + " kg" + of_row(at));
-      require(mass <= bench.load[at],
-              shown(mass) + " kg of " + shown(bench.load[at]) + " kg" + of_row(at));
+      require(mass >= 0.0, shown(mass) + " kg" + of_row(at) + "; expected: from 0 on");
+      require(mass <= bench.load[at], shown(mass) + " kg of " + shown(bench.load[at]) + " kg" +
+                                          of_row(at) + "; expected: at most all of it");
     }
   }
 }
 
 void check_nothing_from_nothing(const Bench& bench) {
   for (std::size_t at = 0; at < k_classes * k_rows; at += k_strengths) {
-    require(bench.in_contacts[at] == 0.0,
-            shown(bench.in_contacts[at]) + " kg" + of_row(at) + " that nothing has touched");
+    require(bench.in_contacts[at] == 0.0, shown(bench.in_contacts[at]) + " kg" + of_row(at) +
+                                              " that nothing has touched; expected: 0");
     require(bench.in_wind[at] == 0.0,
-            shown(bench.in_wind[at]) + " kg" + of_row(at) + " where there is no wind");
+            shown(bench.in_wind[at]) + " kg" + of_row(at) + " where there is no wind; expected: 0");
   }
 }
 

@@ -98,6 +98,7 @@ void check_pose(const Maker& make) {
   if (!motion->moves_body()) throw Remark("the body itself stands");
   constexpr double k_step = 1e-6;
   int jumps = 0;
+  std::string first;
   for (int n = 0; n < 1000; ++n) {
     const double time = 5e-4 * n;
     const sdk::RigidPose a = motion->pose(time);
@@ -110,12 +111,16 @@ void check_pose(const Maker& make) {
     const double size = motion->largest_speed() + 1e-6;
     const double rate = motion->largest_angular_velocity() + 1e-6;
     // A motion may set off or stop at once, within one of the steps.
-    if (norm(went - reported) > 1e-3 * size || std::abs(turned - spun) > 1e-3 * rate) ++jumps;
+    if (norm(went - reported) <= 1e-3 * size && std::abs(turned - spun) <= 1e-3 * rate) continue;
+    if (jumps++ > 0) continue;
+    first = "; the first at " + shown(time) + " s: " + shown(norm(went)) + " m/s and " +
+            shown(turned) + " rad/s by its places, " + shown(norm(reported)) + " m/s and " +
+            shown(spun) + " rad/s by velocity and angular_velocity";
   }
   constexpr int k_stops = 4;
   require(jumps <= k_stops, "in " + std::to_string(jumps) +
                                 " of 1000 short times the body goes elsewhere than its " +
-                                "velocity says");
+                                "velocity says" + first);
 }
 
 void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
@@ -129,7 +134,10 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
       require(
           norm(pose.velocity) <= bound &&
               std::abs(pose.angular_velocity) <= motion->largest_angular_velocity() * (1.0 + 1e-12),
-          "the body is faster at " + shown(time) + " s than the largest speed told");
+          "the body is faster at " + shown(time) +
+              " s than the largest speed told: " + shown(norm(pose.velocity)) + " m/s and " +
+              shown(pose.angular_velocity) + " rad/s, told are " + shown(motion->largest_speed()) +
+              " m/s and " + shown(motion->largest_angular_velocity()) + " rad/s");
       for (const Vec3& v : velocities(*motion, {}, time)) {
         require(norm(v) <= bound, shown(norm(v)) + " m/s at " + shown(time) + " s, told are " +
                                       shown(motion->largest_speed()) + " m/s");

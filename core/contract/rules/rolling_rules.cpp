@@ -79,7 +79,9 @@ void check_brakes(const Maker& make) {
     const Vec3 torque = bench.vector(ContactBench::torque, n);
     require(dot(torque, contacts[n].angular_velocity) <=
                 1e-12 * norm(torque) * norm(contacts[n].angular_velocity),
-            "a contact that begins is driven, not braked");
+            "contact " + std::to_string(n) + " is driven when it begins, not braked: " +
+                shown(dot(torque, contacts[n].angular_velocity)) +
+                " W on its rotation; expected: 0 or below");
   }
 }
 
@@ -93,8 +95,9 @@ void check_rest(const Maker& make) {
     bench.evaluate([&](const sdk::ContactBatch& batch) { law->evaluate(batch); }, 0);
   }
   for (std::size_t n = 0; n < contacts.size(); ++n) {
-    require(norm(bench.vector(ContactBench::torque, n)) == 0.0,
-            "contact " + std::to_string(n) + " feels a couple without any rotation");
+    const double couple = norm(bench.vector(ContactBench::torque, n));
+    require(couple == 0.0, "contact " + std::to_string(n) + " feels a couple of " + shown(couple) +
+                               " N m without any rotation; expected: 0");
   }
 }
 

@@ -66,17 +66,21 @@ void add(Observations& observations, const std::string& from, const Figures& fig
 class NoReport final : public sdk::ReportSink {
  public:
   void section(std::string_view heading, std::string_view text) override {
-    require(!heading.empty() && !text.empty(), "its section has no heading or no text");
+    require(!heading.empty(), "a section of its report has no heading");
+    require(!text.empty(), "its section '" + std::string(heading) + "' has no text");
   }
   void curve(std::string_view title, std::string_view, std::string_view, std::string_view series,
              std::span<const double> x, std::span<const double> y) override {
     require(x.size() == y.size(), "the curve '" + std::string(title) + "' (" + std::string(series) +
-                                      ") has columns of different length");
+                                      ") has " + std::to_string(x.size()) + " numbers for x and " +
+                                      std::to_string(y.size()) + " for y; expected: as many");
   }
   void row(std::string_view title, std::span<const std::string> columns,
            std::span<const double> values) override {
     require(columns.size() == values.size(),
-            "the table '" + std::string(title) + "' has rows of another length than its head");
+            "the table '" + std::string(title) + "' has a row of " + std::to_string(values.size()) +
+                " numbers under a head of " + std::to_string(columns.size()) +
+                " columns; expected: as many");
   }
 };
 
@@ -139,7 +143,8 @@ void check_names(const Maker& make) {
     const Figures figures = is_series ? series_of(*sensor) : summary_of(*sensor);
     std::set<std::string> seen;
     for (const auto& [name, figure] : figures.all()) {
-      require(is_name(name), "'" + name + "' is not a path of snake_case words");
+      require(is_name(name),
+              "'" + name + "' is not a path of snake_case words: a to z, 0 to 9, _ and /");
       require(seen.insert(name).second, "'" + name + "' is given twice");
       require(!figure.unit.empty(), "'" + name + "' has no unit; a bare number has \"1\"");
       if (!is_bare(figure.unit) && !scenario::parse_unit(figure.unit)) {
@@ -151,10 +156,25 @@ void check_names(const Maker& make) {
   const FieldList written = fields_of(*sensor);
   for (const std::string& name : written.names()) {
     require(is_name(name) && name.find('/') == std::string::npos,
-            "the field '" + name + "' is not snake_case");
+            "the field '" + name + "' is not snake_case: a to z, 0 to 9 and _");
     require(fields.insert(name).second, "the field '" + name + "' is given twice");
   }
   if (!unknown.empty()) throw Remark("units the engine does not know:" + unknown);
+}
+
+/// The first of two lists of names that differs: "'a [m]', now 'b [m]'".
+std::string first_change(const std::vector<std::string>& before,
+                         const std::vector<std::string>& now) {
+  const auto quoted = [](const std::vector<std::string>& names, std::size_t n) {
+    return n < names.size() ? "'" + names[n] + "'" : std::string("nothing");
+  };
+  std::size_t n = 0;
+  while (n < before.size() && n < now.size() && before[n] == now[n]) ++n;
+  return quoted(before, n) + ", now " + quoted(now, n);
+}
+void require_same(const std::vector<std::string>& before, const std::vector<std::string>& now,
+                  const std::string& what) {
+  require(before == now, what + first_change(before, now) + "; expected: the same names always");
 }
 
 /// What must hold of the role of one figure.
@@ -201,7 +221,8 @@ void check_roles(const Maker& make) {
       if (figure.role.quantity == sdk::Quantity::unspecified) without += " " + name;
     }
     require(roles_of(figures) == roles_of(is_series ? series_of(*blind) : summary_of(*blind)),
-            "the roles of its figures depend on what it sees");
+            std::string("the roles of its figures in its ") + (is_series ? "series" : "summary") +
+                " depend on what it sees; expected: those of an empty domain");
   }
   if (!without.empty())
     throw Remark("figures without a quantity, which the report just lists:" + without);
@@ -224,7 +245,8 @@ void check_sees(const Maker& make) {
     with_error +=
         figure.uncertainty > 0.0 || !sdk::reason_without_error(figure.uncertainty).empty();
   }
-  require(!figures.all().empty(), "its summary is empty");
+  require(!figures.all().empty(), "its summary is empty after " + std::to_string(k_samples) +
+                                      " samples; expected: at least one figure");
   if (!is_met(make)) {
     throw Remark(
         "the standard stream does not meet it: place it with --set, for example "
@@ -242,15 +264,21 @@ void check_nothing(const Maker& make) {
   SensorStream scene(true);
   for (int s = 0; s < k_samples; ++s) {
     scene.show(*sensor);
-    require(series_of(*sensor).names() == series, "the columns of its series change");
-    require(summary_of(*sensor).names() == full, "the names of its summary change");
-    require(fields_of(*sensor).names() == fields, "its fields change");
+    const std::string when = " in an empty domain after " + std::to_string(s + 1) + " samples: ";
+    require_same(series, series_of(*sensor).names(), "the columns of its series change" + when);
+    require_same(full, summary_of(*sensor).names(),
+                 "the names of its summary are not those beside grains" + when);
+    require_same(fields, fields_of(*sensor).names(), "its fields change" + when);
   }
   const Figures nothing = summary_of(*sensor);
   for (const auto& [name, figure] : nothing.all()) {
     if (figure.role.role == sdk::Role::observed_time) continue;  // how long it looked is no find
-    require(figure.value == 0.0 && figure.uncertainty <= 0.0,
-            "'" + name + "' is " + shown(figure.value) + " in an empty domain");
+    require(figure.value == 0.0, "'" + name + "' is " + shown(figure.value) +
+                                     " in an empty domain; expected: 0, where it has seen nothing "
+                                     "(Role::observed_time: how long it has looked)");
+    require(figure.uncertainty <= 0.0, "'" + name + "' has an error of " +
+                                           shown(figure.uncertainty) +
+                                           " in an empty domain; expected: none");
   }
 }
 
@@ -258,12 +286,13 @@ void check_nothing(const Maker& make) {
 bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 void compare(const Figures& a, const Figures& b, const std::string& when) {
-  require(a.names() == b.names(), when + "its figures have other names");
+  require_same(a.names(), b.names(), when + "its figures have other names: ");
   for (std::size_t n = 0; n < a.all().size(); ++n) {
     const auto& [name, figure] = a.all()[n];
     require(is_same(figure.value, b.all()[n].second.value) &&
                 figure.uncertainty == b.all()[n].second.uncertainty,
-            when + "'" + name + "' differs");
+            when + "'" + name + "' differs: " + shown(b.all()[n].second.value) +
+                ", expected: " + shown(figure.value) + " (save and load keep its state)");
   }
 }
 
@@ -283,7 +312,7 @@ void check_restart(const Maker& make) {
         compare(summary_of(*whole), summary_of(*part), when);
         compare(series_of(*whole), series_of(*part), when);
         require(fields_of(*whole).numbers() == fields_of(*part).numbers(),
-                when + "a field differs");
+                when + "a field differs (save and load keep its state)");
       }
       scene.show(*whole);
       same.show(*part);
@@ -320,7 +349,7 @@ void check_thinned(const Maker& make) {
     full->end_row();
     if ((s + 1) % k_samples_per_row != 0) continue;
     const Figures seldom = series_of(*thinned);
-    require(seldom.names() == row.names(), "a series with fewer rows has other columns");
+    require_same(row.names(), seldom.names(), "a series with fewer rows has other columns: ");
     for (std::size_t c = 0; c < sums.size(); ++c) {
       const auto& [name, figure] = seldom.all()[c];
       const bool is_mean = thinned->row_value(name) == sdk::RowValue::mean;

@@ -59,9 +59,9 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
   runner.rule("gives no negative eddy viscosity, and none where nothing is sheared", [&] {
     const auto eddy = evaluate(make, {});
     for (std::size_t n = 0; n < k_count; ++n) {
-      require(eddy[n] >= 0.0, shown(eddy[n]) + " Pa s");
+      require(eddy[n] >= 0.0, shown(eddy[n]) + " Pa s; expected: from 0 on");
       require(n >= std::size(k_distances) || eddy[n] == 0.0,
-              shown(eddy[n]) + " Pa s without any shear");
+              shown(eddy[n]) + " Pa s without any shear; expected: 0");
     }
   });
   runner.rule("vanishes as the cells become small", [&] {

@@ -53,7 +53,9 @@ struct Shares {
 };
 Shares spread(const Maker& make, const TestVariant& variant) {
   const auto rule = make_as<sdk::VoidageRule>(make, variant.units);
-  require(rule->largest_diameter_over_spacing() > 0.0, "it is valid for no grain at all");
+  const double widest = rule->largest_diameter_over_spacing();
+  require(widest > 0.0, "it is valid for no grain at all: largest_diameter_over_spacing() is " +
+                            shown(widest) + "; expected: above 0");
   const sdk::GridShape grid = grid_in(variant.units);
   Shares s;
   const double largest = largest_diameter(*rule, grid);
@@ -141,7 +143,8 @@ void check_shares(const Maker& make) {
       const std::size_t row =
           g * static_cast<std::size_t>(s.capacity) + static_cast<std::size_t>(n);
       sum += s.weight[row];
-      require(s.weight[row] >= 0.0, "a share is negative: " + shown(s.weight[row]));
+      require(s.weight[row] >= 0.0,
+              "a share is negative: " + shown(s.weight[row]) + "; expected: from 0 on");
       require(is_within(0, s.i[row]) && is_within(1, s.j[row]) && is_within(2, s.k[row]),
               "grain " + std::to_string(g) + " has a share in a cell beyond reach()");
     }

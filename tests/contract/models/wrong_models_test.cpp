@@ -413,6 +413,28 @@ struct Last final : sdk::Sensor {
   double looks = 0.0;
 };
 
+/// Columns of another name with every look.
+struct Restless final : sdk::Sensor {
+  void observe(const sdk::WorldView&) override { ++looks; }
+  void series(sdk::FigureSink& sink) const override {
+    sink.figure("looks_" + std::to_string(looks), 0.0, "1");
+  }
+  void summary(sdk::FigureSink& sink) const override { sink.figure("looks", 0.0, "1"); }
+  int looks = 0;
+};
+
+/// A table whose rows do not fit its head.
+struct Ragged final : sdk::Sensor {
+  void observe(const sdk::WorldView&) override {}
+  void series(sdk::FigureSink&) const override {}
+  void summary(sdk::FigureSink& sink) const override { sink.figure("looks", 0.0, "1"); }
+  void report(sdk::ReportSink& sink) const override {
+    const std::string columns[] = {"time", "looks"};
+    const double values[] = {1.0};
+    sink.row("Looks", columns, values);
+  }
+};
+
 /// Calls a time a mass.
 struct Mislabelled final : sdk::Sensor {
   void observe(const sdk::WorldView&) override {}
@@ -444,13 +466,22 @@ TEST_CASE("a sensor that is wrong shall be told by the rule it breaks") {
   Seen seen;
   const auto results = rule_results_of(
       described("sensor"), [](std::span<const sdk::Value>) { return std::make_unique<Counter>(); });
-  CHECK(seen.broken(results, "names") == "'Looks' is not a path of snake_case words");
-  CHECK(seen.broken(results, "zeros") == "'looks' is 90 in an empty domain");
+  CHECK(seen.broken(results, "names") ==
+        "'Looks' is not a path of snake_case words: a to z, 0 to 9, _ and /");
+  CHECK(seen.broken(results, "zeros") ==
+        "'looks' is 90 in an empty domain; expected: 0, where it has seen nothing "
+        "(Role::observed_time: how long it has looked)");
   CHECK(seen.broken(results, "saved and loaded").find("after 1 samples 'looks' differs") !=
         std::string::npos);
   CHECK(seen.broken(wrong::rule_results_on<Last>(), "between rows") ==
         "'looks' is 9 in a row for every 9 samples; the samples say 5");
-  CHECK(seen.broken(wrong::rule_results_on<Blind>(), "sees something") == "its summary is empty");
+  CHECK(seen.broken(wrong::rule_results_on<Blind>(), "sees something")
+            .find("its summary is empty after ") == 0);
+  CHECK(seen.broken(wrong::rule_results_on<Restless>(), "zeros")
+            .find("the columns of its series change in an empty domain after 1 samples: "
+                  "'looks_0 [1]', now 'looks_1 [1]'; expected: ") == 0);
+  CHECK(seen.broken(wrong::rule_results_on<Ragged>(), "finite numbers") ==
+        "the table 'Looks' has a row of 1 numbers under a head of 2 columns; expected: as many");
   CHECK(seen.broken(wrong::rule_results_on<Mislabelled>(), "its figures are") ==
         "'fed' is said to be a mass, which has no unit s");
   CHECK(seen.broken(wrong::rule_results_on<Unspecified>(), "its figures are") ==
