@@ -70,7 +70,7 @@ void print_text(const Subject& subject) {
       std::cout << " in " << scenario::si_unit(p.dimension);
     }
     std::cout << (p.is_required ? ", required" : ", default " + default_or_required(p));
-    if (!allowed(p).empty()) std::cout << ", " << allowed(p);
+    if (!allowed(p).empty()) std::cout << (p.options.empty() ? ", " : "; one of ") << allowed(p);
     std::cout << "\n      " << p.sentence << '\n';
   }
 }

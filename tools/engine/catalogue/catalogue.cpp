@@ -11,10 +11,14 @@
 namespace dust::engine {
 namespace {
 
-/// "speed [m/s]", with its default where it has one.
+/// "speed [m/s]", "profile (uniform | table)", with its default where it has one.
 std::string parameter_text(const sdk::Parameter& p) {
   const std::string unit = scenario::si_unit(p.dimension);
   std::string text = p.name + (unit.empty() ? "" : " [" + unit + "]");
+  for (const std::string& option : p.options) {
+    text += (&option == &p.options.front() ? " (" : " | ") + option;
+  }
+  if (!p.options.empty()) text += ")";
   const std::string by_default = p.is_required ? "" : scenario::default_text(p);
   return text + (by_default.empty() ? "" : " = " + by_default);
 }
