@@ -182,13 +182,13 @@ std::vector<Value> default_values(const sdk::ModelInfo& info, const sdk::ModelFa
                                   const std::function<bool(const std::vector<Value>&)>& is_usable) {
   // Showing the scene takes longer than making a model; boxes of every shape are among the first.
   constexpr int k_shown = 3 * k_boxes;
-  std::vector<Value> accepted;
+  std::optional<std::vector<Value>> accepted;  // none, or one without parameters
   std::string refusal;
   // First with no number that may be left out, then with one of them at a time (a bridge needs its
   // liquid, by volume or by share).
   const int one_filled = static_cast<int>(info.parameters.size());
   for (int n = 0; n < k_attempts * (1 + one_filled); ++n) {
-    if (!accepted.empty() && n >= k_shown) break;
+    if (accepted && n >= k_shown) break;
     const Guess one = guess_all(info, given, n % k_attempts, n / k_attempts - 1);
     if (!one.missing.empty()) {
       throw base::UserError("error: " + info.kind + "/" + info.name +
@@ -205,9 +205,9 @@ std::vector<Value> default_values(const sdk::ModelInfo& info, const sdk::ModelFa
       continue;
     }
     if (is_usable(one.values)) return one.values;
-    if (accepted.empty()) accepted = one.values;
+    if (!accepted) accepted = one.values;
   }
-  if (!accepted.empty()) return accepted;
+  if (accepted) return *accepted;
   throw base::UserError("error: " + info.kind + "/" + info.name +
                         ": accepts no values that were tried (" + refusal +
                         "); give some: --set PARAMETER=VALUE");

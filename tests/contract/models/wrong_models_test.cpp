@@ -59,7 +59,8 @@ TEST_CASE("a drag law that is wrong shall be told by the rule it breaks") {
                       each(b, [&](auto n) { return n == 2 ? std::nan("") : 1.0; });
                     }),
                     "finite") ==
-        "factor at Re 0.01, void fraction 0.3 is not finite, or is not written");
+        "factor at Re 0.01, void fraction 0.3 is nan: not finite, or is not written; expected: a "
+        "finite number");
   CHECK(seen.broken(drag([](auto& b, double) {
                       each(b, [&](auto n) { return static_cast<double>(n); });
                     }),
@@ -70,7 +71,7 @@ TEST_CASE("a drag law that is wrong shall be told by the rule it breaks") {
   CHECK(seen.broken(drag([](auto& b, double) { const_cast<double*>(b.reynolds)[0] = 1.0; }),
                     "finite") == "it overwrites its input");
   CHECK(seen.broken(drag([](auto& b, double) { each(b, [](auto) { return -1.0; }); }),
-                    "negative") == "F = -1 at Re 0");
+                    "negative") == "F = -1 at Re 0, void fraction 0.3; expected: from 0 on");
   CHECK(seen.broken(drag([](auto& b, double) {
                       each(b, [&](auto n) { return 1.0 / (1.0 + b.reynolds[n] * b.reynolds[n]); });
                     }),
