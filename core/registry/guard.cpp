@@ -3,6 +3,7 @@
 
 #include "base/text.hpp"
 #include "dust/sdk/airborne_dust.hpp"
+#include "registry/checked_sinks.hpp"
 #include "registry/guard_report.hpp"
 
 #include <algorithm>
@@ -464,7 +465,7 @@ class Motion final : public Guarded<sdk::Motion> {
   }
 };
 
-/// Figures may be "no number yet": only what a sensor throws is looked after.
+/// Figures may be "no number yet"; their names and units are looked after, and what it throws.
 class Sensor : public Guarded<sdk::Sensor> {
  public:
   using Guarded::Guarded;
@@ -475,23 +476,36 @@ class Sensor : public Guarded<sdk::Sensor> {
     return get("wants_contacts", &sdk::Sensor::wants_contacts);
   }
   void series(sdk::FigureSink& sink) const override {
-    ask("series", "the columns of series.csv", &sdk::Sensor::series, sink);
+    CheckedFigures checked(sink);
+    ask("series", "the columns of series.csv", &sdk::Sensor::series, checked);
+    refuse_fault(checked, "series");
   }
   [[nodiscard]] sdk::RowValue row_value(std::string_view column) const override {
     return get("row_value", &sdk::Sensor::row_value, column);
   }
   void end_row() override { ask("end_row", "the beginning of another row", &sdk::Sensor::end_row); }
   void summary(sdk::FigureSink& sink) const override {
-    ask("summary", "the figures of summary.json", &sdk::Sensor::summary, sink);
+    CheckedFigures checked(sink);
+    ask("summary", "the figures of summary.json", &sdk::Sensor::summary, checked);
+    refuse_fault(checked, "summary");
   }
   void report(sdk::ReportSink& sink) const override {
-    ask("report", "curves and rows of the report", &sdk::Sensor::report, sink);
+    CheckedReport checked(sink);
+    ask("report", "curves and rows of the report", &sdk::Sensor::report, checked);
+    refuse_fault(checked, "report");
   }
   void fields(sdk::FieldSink& sink) const override {
-    ask("fields", "the fields of a frame", &sdk::Sensor::fields, sink);
+    CheckedFields checked(sink);
+    ask("fields", "the fields of a frame", &sdk::Sensor::fields, checked);
+    refuse_fault(checked, "fields");
   }
   [[nodiscard]] bool wants_walls() const override {
     return get("wants_walls", &sdk::Sensor::wants_walls);
+  }
+
+ private:
+  void refuse_fault(const SinkFaults& checked, const char* asked) const {
+    if (!checked.is_well()) faults().refuse_given(asked, checked.fault());
   }
 };
 

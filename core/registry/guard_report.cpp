@@ -50,6 +50,10 @@ void GuardReport::refuse_answer(const char* question, double answer,
                         "; expected: " + expected);
 }
 
+void GuardReport::refuse_given(const char* asked, const std::string& fault) const {
+  throw sdk::ModelError(who_ + ", asked for " + asked + ", " + fault);
+}
+
 void GuardReport::refuse_made(bool is_nothing) const {
   throw sdk::ModelError(
       who_ + (is_nothing ? " is made as nothing" : " is made as a model of another kind") +

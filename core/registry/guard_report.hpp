@@ -55,6 +55,8 @@ class GuardReport {
   /// An answer outside what the core can work with.
   [[noreturn]] void refuse_answer(const char* question, double answer,
                                   const std::string& expected) const;
+  /// What it gave when it was asked for something: `fault` is "gives ...; expected: ...".
+  [[noreturn]] void refuse_given(const char* asked, const std::string& fault) const;
   /// A factory that gives nothing, or something of another kind.
   [[noreturn]] void refuse_made(bool is_nothing) const;
 

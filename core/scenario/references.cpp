@@ -12,6 +12,18 @@
 namespace dust::scenario {
 namespace {
 
+class IgnoredFigures final : public sdk::FigureSink {
+ public:
+  void figure(std::string_view, double, std::string_view, double, const sdk::FigureRole&) override {
+  }
+};
+
+class IgnoredFields final : public sdk::FieldSink {
+ public:
+  void field(std::string_view, std::string_view, const sdk::GridShape&, std::span<const double>,
+             const sdk::FigureRole&) override {}
+};
+
 class NamedFigures final : public sdk::FigureSink {
  public:
   explicit NamedFigures(SensorFigures& out) : out_(out) {}
@@ -180,6 +192,11 @@ SensorFigures figures_of(const std::string& name, bool is_enabled, const sdk::Mo
   SensorFigures out{name, is_enabled, {}, {}};
   if (model == nullptr) return out;
   const auto& sensor = static_cast<const sdk::Sensor&>(*model);
+  // A guard refuses what no file can hold.
+  IgnoredFigures columns;
+  sensor.series(columns);
+  IgnoredFields fields;
+  sensor.fields(fields);
   NamedFigures figures(out);
   sensor.summary(figures);
   NamedCurves curves(out);

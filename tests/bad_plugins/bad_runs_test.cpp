@@ -113,6 +113,33 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a sensor whose figures no file can hold shall be refused with its place and what fits") {
+  const std::pair<const char*, const char*> faults[] = {
+      {"comma",
+       "asked for series, gives a figure 'left, right'; expected: a name of snake_case words with "
+       "'/' between them"},
+      {"nameless",
+       "asked for summary, gives a figure ''; expected: a name of snake_case words with '/' "
+       "between them"},
+      {"twice", "asked for series, gives a figure 'looks' twice; expected: every name once"},
+      {"unitless",
+       "asked for summary, gives the figure 'times' the unit ''; expected: a unit, for a bare "
+       "number \"1\""},
+      {"cells",
+       "asked for fields, gives 2 numbers for its field 'map'; expected: one for each of its 8 "
+       "cells"}};
+  for (const auto& [model, words] : faults) {
+    const auto check = engine({"check", k_scenario, "--plugin-path", k_folder / "bad_sensors",
+                               "--set", "sensors.eye={model: " + std::string(model) + "}"});
+    INFO(check.err);
+    CHECK(check.status == 2);
+    CHECK(check.err.find(": error: sensors.eye: its figures cannot be asked for: sensor/" +
+                         std::string(model) + " (" +
+                         (k_folder / "bad_sensors/bad_sensors.so").string() + "), " + words +
+                         "\n") != std::string::npos);
+  }
+}
+
 TEST_CASE("a sensor whose columns change shall end the run with the column that did") {
   const TemporaryFolder folder;
   const auto run = engine({"run", k_scenario, "--plugin-path", k_folder / "bad_sensors", "--set",

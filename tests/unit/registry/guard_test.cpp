@@ -229,12 +229,18 @@ struct Sensor final : Trial<sdk::Sensor> {
   bool wants_contacts() const override { return true; }
   void series(sdk::FigureSink& sink) const override { sink.figure("time", time, "s"); }
   void summary(sdk::FigureSink& sink) const override { sink.figure("end", time, "s"); }
-  void report(sdk::ReportSink& sink) const override { sink.section("Heading", "Text."); }
-  void fields(sdk::FieldSink& sink) const override { sink.field("one", "1", {}, {}); }
+  void report(sdk::ReportSink& sink) const override {
+    sink.section("Heading", "Text.");
+    sink.curve("Curve", "t [s]", "y", "y", std::span(&time, 1), std::span(&time, points));
+  }
+  void fields(sdk::FieldSink& sink) const override {
+    sink.field("one", "1", {}, std::span(&time, 1));
+  }
   bool wants_walls() const override { return true; }
   void save(sdk::ArchiveWriter& a) const override { a.number("time", time); }
   void load(sdk::ArchiveReader& a) override { time = a.number("time"); }
   double time = 0.0;
+  std::size_t points = 1;
 };
 
 /// Remembers the names it is given.
@@ -565,4 +571,12 @@ TEST_CASE("a crash shall be reported with the guarded model that is asked, and n
   char little[10];
   CHECK(registry::write_crash_text(SIGSEGV, little) == 10);
   CHECK(std::string(little, 10) == "error: cr\n");
+}
+
+TEST_CASE("a guarded sensor shall be refused for curves whose columns differ in length") {
+  const auto sensor = guard_with<Sensor>([](Sensor& s) { s.points = 0; });
+  Names sink;
+  CHECK(said([&] { sensor->report(sink); }) ==
+        "sensor/trial (/x/trial.so), asked for report, gives the curve 'Curve' 1 numbers for x and "
+        "0 for y; expected: as many");
 }
