@@ -109,8 +109,8 @@ bool is_snake_case(const std::string& name) {
 std::set<std::string> taken_keys(const std::string& kind) {
   if (kind == "emitter") return {"model", "enabled", "frame", "material"};
   if (kind == "motion") {
-    return {"shape",    "motion", "motions", "enabled", "frame",
-            "material", "group",  "remove",  "suction"};
+    return {"model", "shape",    "motion", "motions", "enabled",
+            "frame", "material", "group",  "remove",  "suction"};
   }
   return {"model", "enabled"};
 }
@@ -125,13 +125,16 @@ std::vector<std::string> description_problems(const sdk::ModelInfo& info) {
   if (!is_snake_case(info.name))
     problems.push_back("the name '" + info.name + "' is not snake_case");
   if (info.summary.empty()) problems.push_back(model + " has no summary");
-  std::set<std::string> seen = taken_keys(info.kind);
+  const std::set<std::string> taken = taken_keys(info.kind);
+  std::set<std::string> seen;
   for (const sdk::Parameter& p : info.parameters) {
     const std::string parameter = model + ": the parameter '" + p.name + "'";
     if (!is_snake_case(p.name)) problems.push_back(parameter + " is not snake_case");
     if (p.sentence.empty()) problems.push_back(parameter + " has no sentence that explains it");
-    if (!seen.insert(p.name).second) {
-      problems.push_back(parameter + " is declared twice or is a key of the engine");
+    if (!seen.insert(p.name).second) problems.push_back(parameter + " is declared twice");
+    if (taken.contains(p.name)) {
+      problems.push_back(parameter + " could never be given: the scenario has a key '" + p.name +
+                         "' of its own beside it; choose another name");
     }
   }
   return problems;

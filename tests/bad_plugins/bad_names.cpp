@@ -8,6 +8,15 @@ struct Parameters {
   double silent = 0.0;
 };
 
+/// Parameters of a motion, which stand beside the keys of its body.
+dust::sdk::ParameterSchema beside_a_body() {
+  dust::sdk::SchemaOf<Parameters> schema;
+  schema.number(&Parameters::wrong, "material", dust::sdk::dimension::none, "A sentence.");
+  schema.number(&Parameters::wrong, "radius", dust::sdk::dimension::none, "A sentence.");
+  schema.number(&Parameters::silent, "radius", dust::sdk::dimension::none, "A sentence.");
+  return schema.build();
+}
+
 }  // namespace
 
 DUST_PLUGIN(registrar) {
@@ -22,4 +31,12 @@ DUST_PLUGIN(registrar) {
   registrar.add(std::move(info), [](std::span<const dust::sdk::Value>) {
     return std::make_unique<Drag>(Drag::Parameters{});
   });
+  registrar.add({.kind = "motion",
+                 .name = "mover",
+                 .version = "1.0",
+                 .summary = "Moves.",
+                 .equation = "",
+                 .source = "",
+                 .parameters = beside_a_body()},
+                [](std::span<const dust::sdk::Value>) { return nullptr; });
 }

@@ -112,7 +112,10 @@ TEST_CASE("every fault of a description shall be told") {
         std::vector<std::string>{
             start + "the name 'Camel' is not snake_case", start + "drag/Camel has no summary",
             start + "drag/Camel: the parameter 'WrongName' is not snake_case",
-            start + "drag/Camel: the parameter 'silent' has no sentence that explains it"});
+            start + "drag/Camel: the parameter 'silent' has no sentence that explains it",
+            start + "motion/mover: the parameter 'material' could never be given: the scenario has "
+                    "a key 'material' of its own beside it; choose another name",
+            start + "motion/mover: the parameter 'radius' is declared twice"});
 }
 
 TEST_CASE("two plugins of one name shall be refused with both files") {
