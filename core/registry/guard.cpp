@@ -226,7 +226,11 @@ class FluidForce final : public Guarded<sdk::FluidForce> {
     check_not_negative(faults(), b.count, "resistance", b.resistance, seen);
   }
   [[nodiscard]] sdk::FluidForceNeeds needs() const override {
-    return get("needs", &sdk::FluidForce::needs);
+    const sdk::FluidForceNeeds needs = get("needs", &sdk::FluidForce::needs);
+    if (!(needs.wall_reach >= 0.0)) {
+      faults().refuse_answer("needs (wall_reach)", needs.wall_reach, "a number from 0 on");
+    }
+    return needs;
   }
   [[nodiscard]] sdk::FluidForceParts takes_over() const override {
     return get("takes_over", &sdk::FluidForce::takes_over);
@@ -281,7 +285,12 @@ class Voidage final : public Guarded<sdk::VoidageRule> {
     }
   }
   [[nodiscard]] sdk::Vec3 reach(const sdk::GridShape& grid, double radius) const override {
-    return get("reach", &sdk::VoidageRule::reach, grid, radius);
+    const sdk::Vec3 reach = get("reach", &sdk::VoidageRule::reach, grid, radius);
+    for (int d = 0; d < 3; ++d) {
+      if (reach[d] >= 0.0) continue;
+      faults().refuse_answer("reach", reach[d], "lengths from 0 on along x, y and z");
+    }
+    return reach;
   }
 };
 
@@ -526,10 +535,11 @@ std::unique_ptr<sdk::Model> make(std::unique_ptr<sdk::Model> model, GuardReport 
 
 }  // namespace
 
-std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Entry& entry) {
+std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Entry& entry,
+                                    const std::string& place) {
   if (entry.info.kind == sdk::Sensor::k_kind &&
       dynamic_cast<sdk::DustObserver*>(model.get()) != nullptr) {
-    return make<DustSensor>(std::move(model), GuardReport(entry));
+    return make<DustSensor>(std::move(model), GuardReport(entry, place));
   }
   using Make = std::unique_ptr<sdk::Model> (*)(std::unique_ptr<sdk::Model>, GuardReport);
   static const std::pair<const char*, Make> makers[] = {
@@ -548,7 +558,7 @@ std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Ent
   const auto found = std::find_if(std::begin(makers), std::end(makers),
                                   [&](const auto& m) { return entry.info.kind == m.first; });
   if (found == std::end(makers)) return model;
-  return found->second(std::move(model), GuardReport(entry));
+  return found->second(std::move(model), GuardReport(entry, place));
 }
 
 }  // namespace dust::registry

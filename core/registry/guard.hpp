@@ -15,6 +15,9 @@ namespace dust::registry {
 ///
 /// Every virtual function of the interfaces is passed on here by hand; a test finds one that is not
 /// (tests/unit/registry/guard_forwards_test.py).
-std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Entry& entry);
+///
+/// `place` is where the scenario chooses the model, for faults before the run (PlacedFault).
+std::unique_ptr<sdk::Model> guarded(std::unique_ptr<sdk::Model> model, const Entry& entry,
+                                    const std::string& place = {});
 
 }  // namespace dust::registry

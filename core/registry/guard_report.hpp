@@ -17,13 +17,26 @@ namespace dust::registry {
 /// "drag/rough (/x/rough.so)".
 std::string identity_of(const Entry& entry);
 
+/// A fault of a guarded model that knows where the scenario chooses it. Before the run that place
+/// helps, during the run it is the time and the grain.
+class PlacedFault : public sdk::ModelError {
+ public:
+  PlacedFault(const std::string& place, const std::string& fault)
+      : sdk::ModelError(fault), line_(place + fault) {}
+  /// "s.yaml:3:5: error: drag: drag/rough (/x/rough.so) ...".
+  [[nodiscard]] const std::string& line() const { return line_; }
+
+ private:
+  std::string line_;
+};
+
 /// How a guarded model's faults are told: "drag/rough (/x/rough.so) ...; expected: ...".
 class GuardReport {
  public:
   /// Columns of a batch that help to see why; null ones are left out.
   using Inputs = std::initializer_list<std::pair<const char*, const double*>>;
 
-  explicit GuardReport(const Entry& entry);
+  explicit GuardReport(const Entry& entry, const std::string& place = {});
   [[nodiscard]] const std::string& who() const { return who_; }
 
   /// Calls and passes the answer on. ParameterErrors go through: they have a place in the scenario.
@@ -63,7 +76,10 @@ class GuardReport {
  private:
   [[noreturn]] void thrown(const char* function, const char* expected,
                            const std::string& what) const;
+  [[noreturn]] void tell(const std::string& fault) const;
+
   std::string who_;
+  std::string place_;  ///< "s.yaml:3:5: error: drag: ", or empty
 };
 
 }  // namespace dust::registry

@@ -82,9 +82,7 @@ std::vector<std::string> gathered(const std::vector<std::string>& problems) {
 
 /// Where the scenario chooses the model.
 std::string prefix_of(const scenario::ModelChoice& choice) {
-  const std::string place = scenario::place(choice.where);
-  return (place.empty() ? "" : place + ": ") +
-         "error: " + (choice.path.empty() ? choice.kind : choice.path) + ": ";
+  return error_prefix(choice.where, choice.path.empty() ? choice.kind : choice.path);
 }
 
 }  // namespace
@@ -174,18 +172,28 @@ std::unique_ptr<sdk::Model> Registry::create(const scenario::ModelChoice& choice
   if (entry == nullptr) {
     throw base::UserError(prefix + "unknown " + choice.kind + " model '" + choice.name + "'");
   }
-  const std::string who = identity_of(*entry);
-  const Asking asking(who.c_str(), " was made");
   try {
-    auto model = entry->factory(choice.values);
-    const bool is_tested = entry->file.empty() || entry->is_shipped;
-    return is_tested ? std::move(model) : guarded(std::move(model), *entry);
+    return make_model(*entry, choice.values, prefix);
   } catch (const std::exception& problem) {
     throw base::UserError(prefix + problem.what());
   } catch (...) {
     throw base::UserError(prefix + file_text(entry->file) + " throws something that is no " +
                           "std::exception while it makes " + choice.kind + "/" + choice.name);
   }
+}
+
+std::unique_ptr<sdk::Model> make_model(const Entry& entry, std::span<const sdk::Value> values,
+                                       const std::string& place) {
+  const std::string who = identity_of(entry);
+  const Asking asking(who.c_str(), " was made");
+  auto model = entry.factory(values);
+  const bool is_tested = entry.file.empty() || entry.is_shipped;
+  return is_tested ? std::move(model) : guarded(std::move(model), entry, place);
+}
+
+std::string error_prefix(const scenario::Mark& where, const std::string& path) {
+  const std::string place = scenario::place(where);
+  return (place.empty() ? "" : place + ": ") + "error: " + path + ": ";
 }
 
 void ask_at_place(const scenario::ModelChoice& choice, const std::function<void()>& question) {

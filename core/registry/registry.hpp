@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,6 +57,14 @@ class Registry {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Makes a model; one of a library that is not shipped is guarded. `place` begins its faults that
+/// are reported before the run (error_prefix).
+std::unique_ptr<sdk::Model> make_model(const Entry& entry, std::span<const sdk::Value> values,
+                                       const std::string& place);
+
+/// "file:line:column: error: path: ", as far as they are known.
+std::string error_prefix(const scenario::Mark& where, const std::string& path);
 
 /// Asks something of the chosen model before the run; what it throws becomes a base::UserError at
 /// the model's place, as in Registry::create.

@@ -11,6 +11,7 @@
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
 #include "preflight/reader.hpp"
+#include "registry/guard_report.hpp"
 #include "report/report.hpp"
 #include "run/branch/branch.hpp"
 #include "run/branch/used_models.hpp"
@@ -469,6 +470,8 @@ void start(Simulation& simulation, Branch* branch) {
     } else {
       simulation.start();
     }
+  } catch (const registry::PlacedFault& e) {
+    throw base::UserError(e.line());
   } catch (const sdk::ModelError& e) {
     throw base::UserError(e.what());
   }
@@ -545,6 +548,8 @@ int run_scenario(const RunOptions& options) {
     const auto resumed = options.resume ? std::optional(output.path()) : std::nullopt;
     simulation = std::make_unique<Simulation>(
         read.setup, make_models_of(read, registry, origin, resumed), 0, read.dust);
+  } catch (const registry::PlacedFault& e) {
+    throw base::UserError(e.line());
   } catch (const sdk::ModelError& e) {
     throw base::UserError(options.scenario.string() + ": error: " + e.what());
   }

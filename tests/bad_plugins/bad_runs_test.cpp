@@ -140,6 +140,30 @@ TEST_CASE("a sensor whose figures no file can hold shall be refused with its pla
   }
 }
 
+TEST_CASE("a law whose collision time is none shall be refused at its place before the run") {
+  const std::pair<const char*, const char*> answers[] = {
+      {"zero", "0"}, {"negative", "-1e-06"}, {"not_a_number", "nan"}};
+  for (const auto& [law, answer] : answers) {
+    for (const char* command : {"check", "run"}) {
+      const TemporaryFolder folder;
+      const fs::path out = folder / "run";
+      std::vector<std::string> arguments = {
+          command,         k_scenario,
+          "--plugin-path", k_folder / "timeless",
+          "--set",         "interactions.sand-sand.contact={model: " + std::string(law) + "}"};
+      if (std::string(command) == "run") arguments.insert(arguments.end(), {"-o", out});
+      const auto done = engine(arguments);
+      INFO(done.err);
+      CHECK(done.status == 2);
+      CHECK(done.err.find("--set interactions.sand-sand.contact") != std::string::npos);
+      CHECK(done.err.find(": error: interactions[0].contact: contact/" + std::string(law) + " (" +
+                          (k_folder / "timeless/timeless.so").string() + ") answers " + answer +
+                          " to collision_time; expected: a number above 0\n") != std::string::npos);
+      CHECK_FALSE(fs::exists(out));
+    }
+  }
+}
+
 TEST_CASE("a sensor whose columns change shall end the run with the column that did") {
   const TemporaryFolder folder;
   const auto run = engine({"run", k_scenario, "--plugin-path", k_folder / "bad_sensors", "--set",

@@ -5,6 +5,7 @@
 #include "memory/huge_pages.hpp"
 #include "program/program.hpp"
 #include "registry/crash_notice.hpp"
+#include "registry/guard_report.hpp"
 #include "scenario/text/suggest.hpp"
 
 #include <algorithm>
@@ -112,6 +113,9 @@ int main(int argc, char** argv) {
     return engine_main(argc, argv);
   } catch (const base::UserError& problem) {
     for (const std::string& line : problem.lines()) std::cerr << line << '\n';
+    return k_wrong_input;
+  } catch (const registry::PlacedFault& problem) {
+    std::cerr << problem.line() << '\n';
     return k_wrong_input;
   } catch (const std::filesystem::filesystem_error& problem) {
     std::cerr << "error: " << problem.path1().string() << ": " << problem.code().message() << '\n';

@@ -2,7 +2,6 @@
 #include "scenario/reading/model_reader.hpp"
 
 #include "bodies/shape.hpp"
-#include "registry/guard.hpp"
 #include "scenario/text/suggest.hpp"
 
 #include <algorithm>
@@ -25,7 +24,7 @@ const bodies::ShapeKind* find_shape(const std::string& name) {
 }
 
 std::optional<Offer> find_offer(const registry::Registry& registry, const std::string& kind,
-                                const std::string& name) {
+                                const std::string& name, const std::string& place) {
   if (kind == "shape") {
     const auto* shape = find_shape(name);
     if (shape == nullptr) return std::nullopt;
@@ -36,10 +35,8 @@ std::optional<Offer> find_offer(const registry::Registry& registry, const std::s
   }
   const auto* entry = registry.find(kind, name);
   if (entry == nullptr) return std::nullopt;
-  return Offer{&entry->info.parameters, [entry](const std::vector<sdk::Value>& values) {
-                 auto model = entry->factory(values);
-                 const bool is_tested = entry->file.empty() || entry->is_shipped;
-                 return is_tested ? std::move(model) : registry::guarded(std::move(model), *entry);
+  return Offer{&entry->info.parameters, [entry, place](const std::vector<sdk::Value>& values) {
+                 return registry::make_model(*entry, values, place);
                }};
 }
 
@@ -213,7 +210,8 @@ ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std
     reader.keys_are_unknowable();
     return {};
   }
-  const auto offer = find_offer(registry_, kind, name.text);
+  const auto offer =
+      find_offer(registry_, kind, name.text, registry::error_prefix(name.where, reader.path()));
   if (!offer) {
     const std::string near = nearest(name.text, names);
     diagnostics_.error(name.where, path + ": unknown " + noun(kind) + " '" + printable(name.text) +

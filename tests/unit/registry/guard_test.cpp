@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "registry/crash_notice.hpp"
+#include "registry/guard_report.hpp"
 #include "registry/registry.hpp"
 
 #include <doctest/doctest.h>
@@ -136,10 +137,11 @@ struct NotingDrag final : Trial<sdk::DragLaw> {
 struct FluidForce final : Trial<sdk::FluidForce> {
   using Trial::Trial;
   void evaluate(const sdk::FluidForceBatch& b) const override { b.force.y[0] = deed(what, 1.0); }
-  sdk::FluidForceNeeds needs() const override { return {true, false, true, 1.5}; }
+  sdk::FluidForceNeeds needs() const override { return {true, false, true, wall_reach}; }
   sdk::FluidForceParts takes_over() const override { return {false, true, false}; }
   sdk::FluidForceReaction reaction() const override { return sdk::FluidForceReaction::wall; }
   int history_size() const override { return 6; }
+  double wall_reach = 1.5;
 };
 
 struct Voidage final : Trial<sdk::VoidageRule> {
@@ -579,4 +581,38 @@ TEST_CASE("a guarded sensor shall be refused for curves whose columns differ in 
   CHECK(said([&] { sensor->report(sink); }) ==
         "sensor/trial (/x/trial.so), asked for report, gives the curve 'Curve' 1 numbers for x and "
         "0 for y; expected: as many");
+}
+
+TEST_CASE("reaches that are none shall be refused") {
+  const auto force = guard_with<FluidForce>([](FluidForce& f) { f.wall_reach = k_nan; });
+  CHECK(
+      said([&] { (void)force->needs(); }) ==
+      "fluid_force/trial (/x/trial.so) answers nan to needs (wall_reach); expected: a number from "
+      "0 on");
+  CHECK(said([&] { (void)guard<Voidage>()->reach({}, -1.0); }) ==
+        "voidage/trial (/x/trial.so) answers -1 to reach; expected: lengths from 0 on along x, y "
+        "and z");
+}
+
+TEST_CASE("a fault shall know the place where the scenario chooses the model") {
+  registry::Entry entry;
+  entry.info.kind = "drag";
+  entry.info.name = "trial";
+  entry.file = "/x/trial.so";
+  entry.factory = [](std::span<const sdk::Value>) { return std::make_unique<Drag>(Deed::throws); };
+  const auto drag =
+      registry::make_model(entry, {}, registry::error_prefix({"s.yaml", 3, 5}, "drag"));
+  Columns c;
+  const sdk::DragBatch batch{2, c.a, c.b, c.out[0], nullptr};
+  const std::string fault =
+      "drag/trial (/x/trial.so) throws in evaluate: out of table; expected: a factor for every "
+      "grain "
+      "of the batch";
+  try {
+    static_cast<sdk::DragLaw&>(*drag).evaluate(batch);
+    FAIL("accepted");
+  } catch (const registry::PlacedFault& problem) {
+    CHECK(problem.what() == fault);
+    CHECK(problem.line() == "s.yaml:3:5: error: drag: " + fault);
+  }
 }
