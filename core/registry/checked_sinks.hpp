@@ -10,7 +10,7 @@
 
 namespace dust::registry {
 
-/// What a sensor of others has given that no file can hold: the first fault, told after the call.
+/// What a sensor of others has given that no file can hold: the first fault, for after the call.
 /// It is not thrown through the sensor, which might catch it.
 class SinkFaults {
  public:

@@ -117,6 +117,9 @@ class Contact final : public PairLaw<sdk::ContactLaw> {
     faults().check(b.count, "force.x", b.force.x, seen);
     faults().check(b.count, "force.y", b.force.y, seen);
     faults().check(b.count, "force.z", b.force.z, seen);
+    // Rolling laws and the energy account read them later, where nobody would look for this law.
+    faults().check(b.count, "normal_stiffness", b.normal_stiffness, seen);
+    faults().check(b.count, "tangential_stiffness", b.tangential_stiffness, seen);
   }
   [[nodiscard]] double collision_time(double radius, double mass, double speed) const override {
     return positive("collision_time", &sdk::ContactLaw::collision_time, radius, mass, speed);

@@ -21,14 +21,14 @@ std::string identity_of(const Entry& entry) {
 GuardReport::GuardReport(const Entry& entry, const std::string& place)
     : who_(identity_of(entry)), place_(place) {}
 
-void GuardReport::tell(const std::string& fault) const {
+void GuardReport::throw_fault(const std::string& fault) const {
   if (place_.empty()) throw sdk::ModelError(fault);
   throw PlacedFault(place_, fault);
 }
 
 void GuardReport::thrown(const char* function, const char* expected,
                          const std::string& what) const {
-  tell(who_ + " throws in " + function + ": " + what + "; expected: " + expected);
+  throw_fault(who_ + " throws in " + function + ": " + what + "; expected: " + expected);
 }
 
 void GuardReport::refuse_number(const char* name, double value, std::size_t row, std::size_t count,
@@ -47,21 +47,21 @@ void GuardReport::refuse(const std::string& what, std::size_t row, std::size_t c
     before = ", ";
   }
   if (before[0] == ',') text += ")";
-  tell(text + "; expected: " + expected);
+  throw_fault(text + "; expected: " + expected);
 }
 
 void GuardReport::refuse_answer(const char* question, double answer,
                                 const std::string& expected) const {
-  tell(who_ + " answers " + shown(answer) + " to " + question + "; expected: " + expected);
+  throw_fault(who_ + " answers " + shown(answer) + " to " + question + "; expected: " + expected);
 }
 
 void GuardReport::refuse_given(const char* asked, const std::string& fault) const {
-  tell(who_ + ", asked for " + asked + ", " + fault);
+  throw_fault(who_ + ", asked for " + asked + ", " + fault);
 }
 
 void GuardReport::refuse_made(bool is_nothing) const {
-  tell(who_ + (is_nothing ? " is made as nothing" : " is made as a model of another kind") +
-       "; expected: an object of its kind from its factory");
+  throw_fault(who_ + (is_nothing ? " is made as nothing" : " is made as a model of another kind") +
+              "; expected: an object of its kind from its factory");
 }
 
 }  // namespace dust::registry

@@ -76,7 +76,7 @@ class GuardReport {
  private:
   [[noreturn]] void thrown(const char* function, const char* expected,
                            const std::string& what) const;
-  [[noreturn]] void tell(const std::string& fault) const;
+  [[noreturn]] void throw_fault(const std::string& fault) const;
 
   std::string who_;
   std::string place_;  ///< "s.yaml:3:5: error: drag: ", or empty

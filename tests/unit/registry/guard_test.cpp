@@ -84,12 +84,14 @@ struct Contact final : Trial<sdk::ContactLaw> {
       for (std::size_t n = 0; n < b.count; ++n) column[n] = density;
     }
     b.force.y[b.count - 1] = deed(what, 2.0);
+    if (b.tangential_stiffness != nullptr) b.tangential_stiffness[0] = stiffness;
   }
   double collision_time(double r, double m, double v) const override { return r + 2 * m + 3 * v; }
   double half_period(double r, double m, double d) const override { return r + 4 * m + 5 * d; }
   double range() const override { return 0.25; }
   bool has_hertz_force() const override { return true; }
   double density = 0.0;
+  double stiffness = 1.0;
   int columns = 3;
 };
 
@@ -314,6 +316,14 @@ TEST_CASE("guarded pair laws shall answer as themselves and be said_of from thei
   CHECK(said([&] { guard<Contact>(Deed::throws)->evaluate(batch); }) ==
         "contact/trial (/x/trial.so) throws in evaluate: out of table; expected: a force for every "
         "contact of the batch");
+  batch.tangential_stiffness = c.out[5];
+  CHECK(said([&] { guard<Contact>()->evaluate(batch); }).empty());
+  const auto poisoned = guard_with<Contact>([](Contact& law) { law.stiffness = k_infinite; });
+  CHECK(
+      said([&] { poisoned->evaluate(batch); })
+          .starts_with("contact/trial (/x/trial.so) gives tangential_stiffness = inf in row 1 of 2 "
+                       "of a batch ("));
+  batch.tangential_stiffness = nullptr;
   CHECK_THROWS_AS(guard<Contact>(Deed::refuses)->prepare(k_material, k_material),
                   sdk::ParameterError);
   CHECK(guard<Rolling>()->history_size() == 4);
