@@ -23,7 +23,7 @@ struct Crashing final : dust::sdk::DragLaw {
   }
   void evaluate(const dust::sdk::DragBatch& batch) const override {
     if constexpr (where == Where::evaluate) std::abort();
-    double* volatile nowhere = nullptr;
+    volatile double* volatile nowhere = nullptr;
     *nowhere = batch.reynolds[0];
   }
 };
