@@ -76,9 +76,9 @@ class Sections {
     const int f = (d_ + 2) % 3;
     const Vec3 middle = 0.5 * (scene_.domain.min + scene_.domain.max);
     const Vec3 half = 0.5 * (scene_.domain.max - scene_.domain.min);
-    for (const double beyond : {-radius, radius}) {
+    for (const double offset : {-radius, radius}) {
       Vec3 at = middle;
-      at[d_] = scene_.domain.min[d_] + beyond;
+      at[d_] = scene_.domain.min[d_] + offset;
       look_round(at, e, half[e] + radius, f, half[f] + radius);
     }
     return found_;
