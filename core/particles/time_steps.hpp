@@ -19,8 +19,8 @@ double rayleigh_time(const sdk::MaterialProperties& material, double radius);
 /// fall from 13 mm. Approach speeds in contacts count, not the speed of a free fall.
 inline constexpr double k_default_speed = 0.5;
 
-/// Shares of the Rayleigh and Hertz times that keep a collision accurate (a realised restitution
-/// within 0.01 of the declared one).
+/// Shares of the Rayleigh and Hertz times that keep a collision accurate: how near to the declared
+/// restitution the realised one is stands in docs/theory/grains.md, "The time step".
 inline constexpr double k_rayleigh_share = 0.3;
 inline constexpr double k_steps_per_collision = 15.0;
 

@@ -45,6 +45,15 @@ class Version(unittest.TestCase):
         self.assertRegex(interface, r"^plugin interface: \d+$")
 
 
+class Describe(unittest.TestCase):
+    def test_lists_the_choices_of_a_parameter(self):
+        self.assertIn("tangential: text, default rescaled; one of rescaled, liggghts", engine("describe", "contact/hertz_mindlin"))
+
+    def test_lists_them_for_all_models_of_a_kind(self):
+        said = engine("describe", "boundary")
+        self.assertIn("measure (superficial | interstitial), profile (uniform | parabolic | table) = uniform", said)
+
+
 class ManualPage(unittest.TestCase):
     def setUp(self):
         self.page = engine("man").replace("\\-", "-")

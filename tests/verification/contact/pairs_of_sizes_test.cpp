@@ -83,7 +83,7 @@ Collision collide(const Pair& p, double restitution, bool is_single) {
 }  // namespace
 
 TEST_CASE("a pair of any two sizes shall realise its restitution at several rates") {
-  // 15 steps per contact: the discretisation itself is within 0.01 (collisions_test.cpp).
+  // 15 steps per contact: the discretisation itself is within 0.01 (realised_test.cpp).
   constexpr double k_realised = 0.01;
   constexpr double k_rounding = 1e-12;
   double worst = 0.0;
