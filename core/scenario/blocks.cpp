@@ -441,7 +441,7 @@ const ParameterSchema& CouplingBlock::schema() {
         .optional();
     s.text(&CouplingBlock::self_disturbance, "self_disturbance",
            "Whether what a grain does to the fluid by itself, its own void fraction, wake and "
-           "pressure, is taken off before its drag is found: where it is above 0.5 % (auto), for "
+           "pressure, is taken off before its drag is found: where it is above 1 % (auto), for "
            "all grains (on), for none (off).")
         .one_of({"auto", "on", "off"})
         .optional();

@@ -146,6 +146,11 @@ class Glossary(Tree):
         self.write("docs/theory/a.md", "`core/a.cpp` and `core/b.cpp` and `core/<x>/c.cpp`\n")
         self.assertEqual(self.said(glossary_gate.path_problems(self.root)), "there is no core/b.cpp")
 
+    def test_commands_of_generated_pages_that_are_not_there_are_found(self):
+        self.write("tools/run", "")
+        self.write("docs/validation/a.md", "Written by `tools/record a` and `tools/run a`, to `docs/figures/PAGE.csv`.\n")
+        self.assertEqual(self.said(glossary_gate.path_problems(self.root)), "there is no tools/record")
+
 
 class Diagrams(unittest.TestCase):
     draw = draw_architecture()
@@ -188,6 +193,11 @@ class Diagrams(unittest.TestCase):
     def test_a_node_that_the_table_does_not_explain_is_found(self):
         page = "<!-- end of step -->\n\n| node | what |\n| --- | --- |\n| emit, sensors | a |\n\nmore\n"
         self.assertEqual(self.draw.unexplained(page, "step", ["emit", "sensor one", "fluid"]), ["fluid"])
+
+    def test_nodes_that_the_drawn_scenario_has_not_are_found_in_the_source(self):
+        source = 'dem_graph_.add({"drag",\n  if (dust_) step_graph_.add({"dust",\n step_graph_.add(\n      {"emit", {"a"}'
+        self.assertEqual(self.draw.nodes_in_source(source), {"fluid_step": ["dust", "emit"], "dem_step": ["drag"]})
+        self.assertIn("liberation", self.draw.nodes_in_source(self.draw.GRAPH_SOURCE.read_text())["fluid_step"])
 
     def test_a_stale_diagram_is_replaced_between_its_marks(self):
         page = "a\n<!-- x: drawn by tools/dev/draw_architecture -->\nold\n<!-- end of x -->\nb\n"

@@ -17,7 +17,8 @@ inline sdk::Vec3 force(double diameter, double density, sdk::Vec3 spin, sdk::Vec
 
 /// Factor to it at finite Re [-]: C_L / (Re_R / Re) with
 /// C_L = 0.45 + (Re_R / Re - 0.45) exp(-0.05684 Re_R^0.4 Re^0.3), Re = rho |w| D / mu > 0,
-/// Re_R = rho |Omega| D^2 / mu > 0; measured for 10 < Re < 140, 1 < Re_R / Re < 6.
+/// Re_R = rho |Omega| D^2 / mu > 0; measured for 10 < Re < 140, 1 < gamma < 6, where gamma is
+/// |Omega| D / (2 |w|), so that Re_R / Re is 2 gamma, and 0.05684 the 0.075 2^-0.4 of gamma^0.4.
 /// Source: Oesterle and Bui Dinh (1998) 10.1007/s003480050203.
 inline double oesterle_factor(double reynolds, double spin_reynolds) {
   const double ratio = spin_reynolds / reynolds;
