@@ -109,10 +109,10 @@ const ParameterSchema& MaterialBlock::schema() {
         .at_least(0)
         .at_most(1)
         .optional();
-    s.number(
-         &MaterialBlock::moisture, "moisture", dimension::none,
-         "Water over dry solids, by mass: binds the dust as the law of dust.liberation says, and "
-         "is the liquid of a liquid_bridge that gives no volume of its own.")
+    s.number(&MaterialBlock::moisture, "moisture", dimension::none,
+             "Water over dry solids, by mass (1 % or 0.01): binds the dust as the law of "
+             "dust.liberation says, also what none counts as, and is the liquid of a liquid_bridge "
+             "that gives no volume of its own.")
         .symbol("M")
         .at_least(0)
         .at_most(1)
@@ -245,9 +245,6 @@ const ParameterSchema& DustBlock::schema() {
         .optional();
     s.texts(&DustBlock::materials, "materials", "Materials that are dust; none given = all.")
         .refers_to(sdk::Refers::material)
-        .optional();
-    s.texts(&DustBlock::openings, "openings",
-            "Sensors that count what gets out; none given: those with out or escape in their name.")
         .optional();
     s.texts(&DustBlock::hoods, "hoods",
             "Bodies with suction and sides with a hood that are there to catch dust; none given = "

@@ -112,7 +112,6 @@ struct DustBlock {
   double finer_than = 0.0;
   std::vector<double> classes;
   std::vector<std::string> materials;
-  std::vector<std::string> openings;
   std::vector<std::string> hoods;
   double steady_after = 0.0;
   double fall_height = 0.0;

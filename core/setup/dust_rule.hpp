@@ -12,13 +12,12 @@ namespace dust::scenario {
 /// What the `dust:` block of a scenario says.
 struct DustSpec {
   double finer_than = std::numeric_limits<double>::infinity();  ///< [m]
-  std::vector<double> classes;        ///< [m] sizes that are dust; empty = all
-  std::vector<int> materials;         ///< indices into Setup::materials; empty = all
-  std::vector<std::string> openings;  ///< sensors through whose openings dust gets out
-  std::vector<std::string> hoods;     ///< bodies with suction and sides that extract
-  double steady_after = 0.0;          ///< [s] from which rates are means; 0 = half of the run
-  double fall_height = 0.0;           ///< [m] of the load, for rules of practice; 0 = not known
-  double open_area = 0.0;             ///< [m2] that air comes in through, likewise
+  std::vector<double> classes;     ///< [m] sizes that are dust; empty = all
+  std::vector<int> materials;      ///< indices into Setup::materials; empty = all
+  std::vector<std::string> hoods;  ///< bodies with suction and sides that extract
+  double steady_after = 0.0;       ///< [s] from which rates are means; 0 = half of the run
+  double fall_height = 0.0;        ///< [m] of the load, for rules of practice; 0 = not known
+  double open_area = 0.0;          ///< [m2] that air comes in through, likewise
 };
 
 /// Which grains are dust: judged by the diameter of the grains that one stands for, which is its

@@ -83,7 +83,6 @@ Json dust_rule_json(const Simulation& s) {
   }
   j["coarse_graining"] =
       std::vector<double>(rule.coarse_graining().begin(), rule.coarse_graining().end());
-  j["openings"] = spec.openings;
   j["hoods"] = spec.hoods;
   j["size_classes"] = Json::array();
   for (const auto& [diameter, entry] : size_classes(s, rule)) {

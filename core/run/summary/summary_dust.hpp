@@ -9,7 +9,7 @@ namespace dust::run {
 
 /// The `dust:` block for the report, with numbers for materials and whether each size class of the
 /// emitters is dust: {"finer_than_m", "classes_m", "materials", "material_names",
-/// "coarse_graining" by material, "openings", "hoods", "size_classes": [{"diameter_m",
+/// "coarse_graining" by material, "hoods", "size_classes": [{"diameter_m",
 /// "represented_diameter_m", "is_dust"}]}. Empty without the block.
 nlohmann::ordered_json dust_rule_json(const Simulation& s);
 

@@ -22,25 +22,14 @@ std::string path_of_item(const char* key, std::size_t n) {
   return std::string("dust.") + key + "[" + std::to_string(n) + "]: ";
 }
 
-/// Of the sensors that `dust.openings` lists those that take part.
-std::vector<std::string> enabled_openings(Reading& reading, const Node& node,
-                                          const std::vector<std::string>& sensors) {
-  std::vector<std::string> all;
-  std::vector<std::string> enabled;
-  for (const SensorFigures& sensor : reading.figures) all.push_back(sensor.sensor);
-  for (std::size_t n = 0; n < sensors.size(); ++n) {
-    const auto found =
-        std::find_if(reading.figures.begin(), reading.figures.end(),
-                     [&](const SensorFigures& sensor) { return sensor.sensor == sensors[n]; });
-    if (found == reading.figures.end()) {
-      reading.error(mark_of_item(node, "openings", n),
-                    path_of_item("openings", n) + "there is no sensor " +
-                        scenario::in_quotes(sensors[n]) + suggestion(sensors[n], all, "there are"));
-    } else if (found->is_enabled) {
-      enabled.push_back(sensors[n]);
-    }
-  }
-  return enabled;
+/// Says what came in place of `dust.openings`. A run's own scenario.yaml of before has it empty.
+void refuse_openings(Reading& reading, MapReader& reader, const Node& dust) {
+  if (dust.find("openings") == nullptr) return;
+  const Entry& entry = *reader.optional("openings");
+  if (entry.value.is_list() && entry.value.items.empty()) return;
+  reading.error(entry.where,
+                "dust.openings: had no effect and is gone: what gets out is what sensors with a "
+                "role say: give the plane_flux `role: opening`, and take openings out");
 }
 
 std::vector<std::string> known_hoods(Reading& reading, const Node& node,
@@ -84,7 +73,6 @@ DustSpec dust_spec_of(Reading& reading, const Entry& entry, const DustBlock& rea
   for (const std::string& name : read.materials) {
     spec.materials.push_back(reading.names.materials.index(name));
   }
-  spec.openings = enabled_openings(reading, entry.value, read.openings);
   spec.hoods = known_hoods(reading, entry.value, read.hoods);
   spec.steady_after = read.steady_after;
   spec.fall_height = read.fall_height;
@@ -134,6 +122,7 @@ void read_dust(Reading& reading, MapReader& top) {
   if (!entry->value.is_map()) return;
   std::vector<sdk::Value> values;
   const auto read = block<DustBlock>(reader, &values);
+  refuse_openings(reading, reader, entry->value);
   const bool is_good = reading.models.check_references(reader, DustBlock::schema(), values, true);
   const bool has_field = entry->value.find("field") != nullptr;
   if (reader.is_good() && is_good)

@@ -152,6 +152,17 @@ void check_share_of_dust(Reading& reading, const Entry& material, const std::str
                                   "write per cent as 0.5 %");
 }
 
+/// Warns of more water than bulk solids hold: per cent written as a share.
+void check_moisture(Reading& reading, const Entry& material, const std::string& path,
+                    double moisture) {
+  constexpr double k_much = 0.2;
+  if (!(moisture > k_much)) return;
+  reading.diagnostics.warning(mark_of(material.value, "moisture"),
+                              path + ".moisture: water is " + number_text(100.0 * moisture) +
+                                  " % of the dry solids: a number without a unit is a share of "
+                                  "one; write per cent as 1 %");
+}
+
 }  // namespace
 
 void read_materials(Reading& reading, MapReader& top) {
@@ -167,6 +178,7 @@ void read_materials(Reading& reading, MapReader& top) {
          material.coarse_graining});
     reading.dust.loads.push_back({material.dust_load, material.moisture});
     check_share_of_dust(reading, entry, path, material.dust_load);
+    check_moisture(reading, entry, path, material.moisture);
     Node block = written_block<MaterialBlock>(values);
     // What only dust asks for is not written where there is none.
     if (material.dust_load.empty()) {

@@ -26,7 +26,7 @@ class Energy final : public sdk::LiberationLaw {
     sdk::SchemaOf<Parameters> s;
     s.number(&Parameters::binding_energy, "binding_energy", sdk::dimension::specific_energy,
              "Energy dissipated in contacts that sets a mass of dust free, for dust of the "
-             "reference diameter at the reference moisture.")
+             "reference diameter at the reference moisture; some 1e3 to 1e8 J/kg.")
         .symbol("e_b")
         .above(0);
     s.number(&Parameters::reference_diameter, "reference_diameter", sdk::dimension::length,
@@ -55,7 +55,8 @@ class Energy final : public sdk::LiberationLaw {
             .version = "1.0",
             .summary = "Dust comes off by the energy that contacts dissipate.",
             .equation = R"(\Delta m = m \left(1 - e^{-E/(m_0 e_b)}\right),\ E = E_n + s E_t,\ )"
-                        R"(e_b = e_{b,0} (d/d_0)^{-n}\, 10^{(M - M_0)/M_1})",
+                        R"(e_b = e_{b,0} (d/d_0)^{-n}\, b(M),\ b = (M/M_0)^{1.4} )"
+                        R"((M, M_0 \ge 0.25\,\%),\ \text{with } M_1:\ 10^{(M - M_0)/M_1})",
             .source =
                 "Hilton and Cleary, Int. J. Numer. Meth. Fluids 72 (2013) 528, "
                 "doi:10.1002/fld.3750; AP-42, 13.2.4 (2006)"};

@@ -47,7 +47,9 @@ class ForceRatio final : public sdk::LiberationLaw {
             .summary = "Dust comes off where its inertia in an impact exceeds what binds it.",
             .equation = R"(\Delta m = \max\left(0, m - m_0 (1 - P)\right),\ )"
                         R"(P = \Phi\left(\frac{\ln R}{\ln \sigma}\right),\ )"
-                        R"(R = \frac{\pi \rho_d d^3 a}{6 F_b},\ F_b = F_{b,0}\, d/d_0)",
+                        R"(R = \frac{\pi \rho_d d^3 a}{6 F_b},\ F_b = F_{b,0}\, (d/d_0)\, b(M),\ )"
+                        R"(b = (M/M_0)^{1.4}\ (M, M_0 \ge 0.25\,\%),\ )"
+                        R"(\text{with } M_1:\ 10^{(M - M_0)/M_1})",
             .source =
                 "Plinke, Leith, Boundy and Loeffler, Am. Ind. Hyg. Assoc. J. 56 (1995) "
                 "251; AP-42, 13.2.4 (2006)"};

@@ -34,7 +34,9 @@ class Translate final : public sdk::Motion {
     return {.name = "translate",
             .version = "1.0",
             .summary = "A body that moves in a straight line, until a time or a distance.",
-            .equation = "x = x_0 + u (t - t_0)",
+            .equation = R"(x = x_0 + s\, u/|u|,\ \tau = \min(t, t_{stop}) - t_0,\ )"
+                        R"(s = |u| \tau^2/(2 r)\ (\tau < r),\ |u| (\tau - r/2)\ (\tau \ge r),\ )"
+                        R"(s \le s_{travel})",
             .source = "kinematics; own derivation"};
   }
 
