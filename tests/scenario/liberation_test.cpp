@@ -158,7 +158,7 @@ TEST_CASE("moisture shall bind as the law says") {
     return dust::test::read_file(folder / name / "run.log").find(line) != std::string::npos;
   };
   const double none = freed("none", {"--set", "materials.ore.moisture=0"});
-  CHECK(none / dry == approx(std::pow(0.25, -1.4)).epsilon(1e-4));
+  CHECK(none / dry == approx(std::pow(0.25, -1.4)).epsilon(1e-3));  // eq. (8) bends
   CHECK(says("none",
              "material ore: no moisture given: counts as 0.25 %, a gentle impact sets free 6.96 of "
              "what it does at 1 %"));
