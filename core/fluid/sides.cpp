@@ -292,10 +292,51 @@ void Sides::fill_component(std::vector<double>& v, int d, int direction, bool fo
   }
 }
 
+/// Beyond a pressure side that lets pass nothing along it, the velocity that the side beside it
+/// gives on its own faces is mirrored like that of the faces next to them. Sides are filled axis by
+/// axis: where the giving side comes later it has overwritten these numbers.
+void Sides::fill_corners(FaceField& u, bool for_sweeps) const {
+  for (int side = 0; side < 6; ++side) {
+    const int direction = side / 2;
+    if (!is_pressure_side(kinds_, direction, side % 2)) continue;
+    for (int d = direction + 1; d < 3; ++d) {
+      if (kinds_.is_periodic[d] || ghost_rule(kinds_, d, direction, side % 2) != GhostRule::fixed) {
+        continue;
+      }
+      for (int high = 0; high < 2; ++high) {
+        if (!is_pressure_side(kinds_, d, high))
+          fill_corner(u.component[d], side, d, high, for_sweeps);
+      }
+    }
+  }
+}
+
+void Sides::fill_corner(std::vector<double>& v, int side, int d, int high, bool for_sweeps) const {
+  const int direction = side / 2;
+  const int along = 3 - d - direction;
+  const auto size = plane_size(side, d);
+  const int face = high ? grid_.count[d] : 0;
+  const std::ptrdiff_t s = grid_.stride[direction];
+  const std::ptrdiff_t out = side % 2 ? s : -s;
+  const std::ptrdiff_t edge = side % 2 ? (grid_.count[direction] - 1) * s : 0;
+  const std::ptrdiff_t second = grid_.count[direction] > 1 ? edge - out : edge;
+  const auto& given = values_[side].velocity[d];
+  for (int n = -Grid::k_halo; n < grid_.count[along] + Grid::k_halo; ++n) {
+    // As plane_size() has the axes of the side's plane: ascending.
+    const int p = std::clamp(along < d ? n : face, 0, size[0] - 1);
+    const int q = std::clamp(along < d ? face : n, 0, size[1] - 1);
+    const double wall = given[static_cast<std::size_t>(q) * size[0] + p];
+    double* at = &v[grid_.index(0, 0, 0) + n * grid_.stride[along] + face * grid_.stride[d]];
+    at[edge + out] = for_sweeps ? wall : 2.0 * wall - at[edge];
+    if (!for_sweeps) at[edge + 2 * out] = 2.0 * wall - at[second];
+  }
+}
+
 void Sides::fill_velocity(FaceField& u) const {
   for (int direction = 0; direction < 3; ++direction) {
     for (int d = 0; d < 3; ++d) fill_component(u.component[d], d, direction, false);
   }
+  fill_corners(u, false);
 }
 
 bool Sides::find_idle(int direction) const {
@@ -316,6 +357,7 @@ void Sides::fill_varying(FaceField& u) const {
       }
     }
   }
+  fill_corners(u, false);
 }
 
 void Sides::fill_for_sweeps(FaceField& u) const {
@@ -326,6 +368,7 @@ void Sides::fill_for_sweeps(FaceField& u) const {
       }
     }
   }
+  fill_corners(u, true);
 }
 
 void Sides::wrap(std::vector<double>& component, int d) const {

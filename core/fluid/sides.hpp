@@ -87,6 +87,8 @@ class Sides {
   void evaluate_at(int side, int component, double time, const CellField* eps);
   void read_void_fraction(int side, int component, const CellField& eps);
   void fill_component(std::vector<double>& v, int d, int direction, bool for_sweeps) const;
+  void fill_corners(FaceField& u, bool for_sweeps) const;
+  void fill_corner(std::vector<double>& v, int side, int d, int high, bool for_sweeps) const;
 
   [[nodiscard]] bool find_idle(int direction) const;
 
