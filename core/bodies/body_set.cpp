@@ -139,6 +139,14 @@ SurfacePoint Body::nearest(Vec3 point, const Placement& at) const {
   return s;
 }
 
+std::string Body::nip_at(Vec3 point, double radius, const Placement& at) const {
+  Vec3 q = at.to_body(point);
+  if (const RunningParts* const parts = running_parts(*this)) {
+    q += run_at(*this, *parts, at) * parts->running_direction();
+  }
+  return shape->nip_at(q, radius);
+}
+
 SurfacePoint Body::contact(int part, Vec3 point, double reach, const Placement& at) const {
   SurfacePoint s;
   if (const RunningParts* const parts = running_parts(*this)) {

@@ -61,6 +61,8 @@ struct Body {
   /// Nearest surface point in the domain's frame, as the scenario puts the body or at a placement.
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point) const;
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point, const Placement& at) const;
+  /// Of a sphere at a placement, see Shape::nip_at.
+  [[nodiscard]] std::string nip_at(sdk::Vec3 point, double radius, const Placement& at) const;
   /// The same for a part, see Shape::contact, touch and is_within.
   [[nodiscard]] SurfacePoint contact(int part, sdk::Vec3 point, double reach,
                                      const Placement& at) const;

@@ -98,6 +98,11 @@ class Shape {
   /// Whether the shape stays where it is when it turns about the line through `point` along the
   /// unit vector `axis`: a drum about its own axis.
   [[nodiscard]] virtual bool is_unchanged_by_turning(sdk::Vec3, sdk::Vec3) const { return false; }
+  /// Where surfaces run together so that a sphere of `radius` [m] is drawn in and has no room: what
+  /// place of the shape this is, if the point is there; else empty. For messages.
+  [[nodiscard]] virtual std::string nip_at(sdk::Vec3 /*point*/, double /*radius*/) const {
+    return {};
+  }
 };
 
 /// Base of a shape S of one part: its `nearest`, without a virtual call per sphere.

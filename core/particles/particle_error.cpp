@@ -3,6 +3,8 @@
 
 #include "dust/sdk/error.hpp"
 
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace dust::particles {
@@ -36,6 +38,32 @@ std::string last_contact(const ContactScene& scene, const InnerList& lists, std:
   return partner;
 }
 
+/// The surface nearest to a particle, as text that goes on with the sentence; nothing where there
+/// is none.
+std::string nearest_text(const ContactScene& scene, sdk::Vec3 centre) {
+  const auto [surface, point] =
+      nearest_surface(scene.surfaces, centre, std::numeric_limits<double>::infinity());
+  if (surface == nullptr) return {};
+  std::ostringstream text;
+  text.precision(3);
+  text << "; nearest surface: " << surface->name << ", its centre is " << std::abs(point.distance)
+       << (point.distance < 0.0 ? " m inside" : " m away");
+  return text.str();
+}
+
+/// Why a particle flew apart that is in a nip; empty where it is in none.
+std::string nip_text(const ContactScene& scene, sdk::Vec3 centre, double radius) {
+  for (const Surface& s : scene.surfaces) {
+    if (s.body == nullptr || s.is_removed()) continue;
+    const std::string nip = s.body->nip_at(centre, radius, s.place);
+    if (nip.empty()) continue;
+    return "it was drawn into " + nip + " of '" + s.name +
+           "', which has no room for it: keep grains out of there, by a plough for example "
+           "(docs/how_to/walls.md, Conveyors)";
+  }
+  return {};
+}
+
 }  // namespace
 
 void throw_particle_error(const ContactScene& scene, const InnerList& lists, std::size_t row,
@@ -49,8 +77,14 @@ void throw_particle_error(const ContactScene& scene, const InnerList& lists, std
        << scene.laws.material_name(store.material(row)) << ") " << what << " at time " << scene.time
        << " s, position (" << p[0] << ", " << p[1] << ", " << p[2] << ") m, velocity (" << v[0]
        << ", " << v[1] << ", " << v[2] << ") m/s; last known contact: ";
-  throw sdk::ModelError(text.str() + last_contact(scene, lists, static_cast<std::int32_t>(row)) +
-                        "; likely cause: " + cause);
+  text << last_contact(scene, lists, static_cast<std::int32_t>(row));
+  const sdk::Vec3 centre{p[0], p[1], p[2]};
+  std::string nip;
+  if (std::isfinite(norm(centre))) {
+    text << nearest_text(scene, centre);
+    nip = nip_text(scene, centre, p[3]);
+  }
+  throw sdk::ModelError(text.str() + "; likely cause: " + (nip.empty() ? cause : nip));
 }
 
 void throw_not_a_number(const ContactScene& scene, const InnerList& lists, std::size_t row) {

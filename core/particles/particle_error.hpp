@@ -9,8 +9,8 @@
 
 namespace dust::particles {
 
-/// Stops the run for one particle, named with its place, velocity and last contact: `what` has
-/// happened to it, and what is the likely `cause`.
+/// Stops the run for one particle, named with its place, velocity, last contact and the nearest
+/// surface: `what` has happened to it, and what is the likely `cause`, unless it is in a nip.
 [[noreturn]] void throw_particle_error(const ContactScene& scene, const InnerList& lists,
                                        std::size_t row, const std::string& what,
                                        const std::string& cause);

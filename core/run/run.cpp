@@ -291,7 +291,11 @@ class Run {
 
   int close() {
     take_times();
-    for (const std::string& text : shortfalls(simulation_)) {
+    std::vector<std::string> texts = shortfalls(simulation_);
+    if (facts_.status != "failed") {  // which has its own reason, often this one
+      for (std::string& text : overlap_warnings(simulation_)) texts.push_back(std::move(text));
+    }
+    for (const std::string& text : texts) {
       base::log_warning(text);
       facts_.warnings.push_back(text);
     }
@@ -345,8 +349,16 @@ class Run {
       return;
     }
     base::log_error(when + facts_.reason);
+    if (!fs::exists(checkpoint)) {
+      base::log_error(
+          "there is no checkpoint: after mending the cause start again with --force -o " +
+          folder_.string());
+      return;
+    }
     base::log_error("the last good checkpoint is " + checkpoint +
-                    "; after mending the cause start again, or resume from it with --resume");
+                    ": the same scenario goes on from it with --resume, a changed one (steps, "
+                    "speeds, laws, bodies) with 'start_from: " +
+                    folder_.string() + "' (docs/how_to/branch_a_run.md)");
   }
 
   void write_frame() {

@@ -240,6 +240,18 @@ class BeltConveyor final : public Shape, public LocalAxes, public RunningParts {
     return {std::to_string(cleats_->count()) + " cleats, " + base::length_text(cleats_->gap()) +
             " apart: a whole number round the belt"};
   }
+  /// Inside the loop beside a pulley: from a radius before the place where the sphere touches
+  /// pulley and run at once, to the pulley's axis.
+  [[nodiscard]] std::string nip_at(Vec3 point, double radius) const override {
+    const Vec3 q = to_belt(point);
+    const double reach = 2.0 * std::sqrt(reach_ * (half_thickness_ + radius)) + radius;
+    const bool is_at_tail = q.x >= -length_ && q.x < reach - length_;
+    if (!is_at_tail && !(q.x <= 0.0 && q.x > -reach)) return {};
+    const double above = q.z - reach_;
+    if (std::abs(q.y) > half_width_ || q.z < -reach_ - half_thickness_) return {};
+    if (q.z > 0.0 && above > trough_.foot({q.x, q.y, above}).z) return {};
+    return is_at_tail ? "the nip of the tail pulley" : "the nip of the head pulley";
+  }
   [[nodiscard]] Vec3 lateral_axis() const override { return across_; }
   [[nodiscard]] const LocalAxes* local_axes() const override { return this; }
   [[nodiscard]] Vec3 lateral_axis_at(Vec3 point, Vec3 normal) const override {
@@ -536,7 +548,9 @@ ShapeKind belt_conveyor_kind() {
   return make_kind<BeltConveyor>(
       "belt_conveyor",
       "Belt of finite width round a head and a tail pulley, in any direction, flat or troughed on "
-      "three rolls, plain or with cleats.");
+      "three rolls, plain or with cleats. Nothing keeps grains out of its loop, whose pulleys draw "
+      "in "
+      "what lies on the return run.");
 }
 
 }  // namespace dust::bodies

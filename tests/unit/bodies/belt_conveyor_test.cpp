@@ -229,6 +229,33 @@ TEST_CASE("drawn faces of a belt shall lie on it and look outwards") {
   CHECK(farthest == approx(3.0).epsilon(1e-12));  // cut off beside the box
 }
 
+TEST_CASE("the nips of a belt shall be inside its loop at its pulleys, and nowhere else") {
+  const auto belt = make_shape("belt_conveyor", troughed());
+  constexpr double k_grain = 0.02;  // radius
+  const double inner = k_radius;    // from the axis to the inner face of the return run
+  const auto nip = [&](Vec3 point) { return belt->nip_at(point, k_grain); };
+  // A grain on the return run touches the pulley's rim where both distances are its radius.
+  const double rim = k_radius + k_thickness + k_grain;
+  const double touching = std::sqrt(rim * rim - (inner - k_grain) * (inner - k_grain));
+  const Vec3 at_tail{-8 + touching, 0, -(inner - k_grain)};
+  CHECK(belt->nearest(at_tail).distance == approx(k_grain).epsilon(1e-9));
+  CHECK(nip(at_tail) == "the nip of the tail pulley");
+  CHECK(nip(at_tail + Vec3{0.9 * k_grain, 0.49, 0}) == "the nip of the tail pulley");
+  CHECK(nip({-touching, 0, inner - k_grain}) == "the nip of the head pulley");
+  // Deep in the wedge, its centre within the belt.
+  CHECK(nip({-8 + 0.1, 0, -inner - 0.01}) == "the nip of the tail pulley");
+  // Farther off on the return run, beside it, below it, round the pulley, on the load's side.
+  CHECK(nip(at_tail + Vec3{1.1 * k_grain, 0, 0}).empty());
+  CHECK(nip(at_tail + Vec3{0, 0.51, 0}).empty());
+  CHECK(nip({-8 + 0.1, 0, -(inner + k_thickness + k_grain)}).empty());
+  CHECK(nip({-8 - 0.1, 0, -(inner - k_grain)}).empty());
+  for (const double x : {-7.9, -8 + touching, -touching, -0.1}) {
+    const double top = walk(x > -4 ? x : -8 - x, 0.0).z;
+    CHECK(nip({x, 0, top + k_thickness / 2 + 0.001}).empty());
+  }
+  CHECK(make_shape("box", {{"min", Vec3{}}, {"max", Vec3{1, 1, 1}}})->nip_at({}, 0.1).empty());
+}
+
 TEST_CASE("a belt whose parts do not fit shall be refused") {
   const auto refused = [](const char* key, const Value& value) {
     auto values = troughed();
