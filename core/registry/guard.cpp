@@ -487,6 +487,9 @@ class Sensor : public Guarded<sdk::Sensor> {
   [[nodiscard]] bool wants_contacts() const override {
     return get("wants_contacts", &sdk::Sensor::wants_contacts);
   }
+  [[nodiscard]] bool wants_face_fluxes() const override {
+    return get("wants_face_fluxes", &sdk::Sensor::wants_face_fluxes);
+  }
   void series(sdk::FigureSink& sink) const override {
     CheckedFigures checked(sink);
     ask("series", "the columns of series.csv", &sdk::Sensor::series, checked);

@@ -6,15 +6,18 @@
 #include "run/run_checks.hpp"
 #include "run/state_digest.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace dust::run {
 namespace {
 
-bool wants_contacts(const Models& models) {
-  return std::any_of(models.sensors.begin(), models.sensors.end(),
-                     [](const auto& s) { return s->wants_contacts(); });
+Snapshots::Wanted wanted_by_sensors(const Models& models) {
+  Snapshots::Wanted wanted;
+  for (const auto& sensor : models.sensors) {
+    wanted.contacts |= sensor->wants_contacts();
+    wanted.face_fluxes |= sensor->wants_face_fluxes();
+  }
+  return wanted;
 }
 
 }  // namespace
@@ -46,7 +49,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
       dust_setup_(std::move(dust)),
       models_(std::move(models)),
       clock_(setup_.time.fluid_step, setup_.time.end),
-      snapshots_(setup_.domain, wants_contacts(models_)) {
+      snapshots_(setup_.domain, wanted_by_sensors(models_)) {
   if (setup_.fluid) {
     fluid_ = std::make_unique<FluidStage>(setup_, models_);
     snapshots_.use_fluid(fluid_->grid(), *setup_.fluid, fluid_->solver().open_fraction());
@@ -73,7 +76,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
   build_dem_graph(check_every);
   build_step_graph();
   snapshots_.take(*dem_);
-  take_fluid_snapshot();
+  take_fluid_snapshot(FaceTable::Moment::before_step);
 }
 
 Simulation::~Simulation() = default;
@@ -90,7 +93,7 @@ void Simulation::start() {
   // step, and the first frame shows the air between them.
   if (coupling() != nullptr && dem_->rows().count > 0) {
     fluid_->start(dem_->rows());
-    take_fluid_snapshot();
+    take_fluid_snapshot(FaceTable::Moment::before_step);
   }
   snapshots_.take(*dem_);
   if (dust_) dust_->start();
@@ -112,7 +115,7 @@ void Simulation::start_from(const std::function<void(const Owners&)>& give) {
   give({models_, clock_, *dem_, *insertion_, snapshots_, fluid_.get(), dust_.get(),
         liberation_.get()});
   if (fluid_) snapshots_.set_open_fraction(fluid_->solver().open_fraction());
-  take_fluid_snapshot();
+  take_fluid_snapshot(FaceTable::Moment::before_step);
   if (dust_) dust_->take_columns();
 }
 
@@ -176,8 +179,8 @@ void Simulation::refresh_drag() {
   dem_->drag_relaxation_changed();
 }
 
-void Simulation::take_fluid_snapshot() {
-  if (fluid_) snapshots_.take(fluid_->solver(), fluid_->void_fraction());
+void Simulation::take_fluid_snapshot(FaceTable::Moment moment) {
+  if (fluid_) snapshots_.take(fluid_->solver(), fluid_->void_fraction(), moment);
 }
 
 sdk::WorldView Simulation::world() const {
@@ -261,7 +264,7 @@ LoadParts Simulation::load_parts() {
         parts, [this] { return clock_.end_of_last_step(); },
         [this] {
           snapshots_.set_open_fraction(fluid_->solver().open_fraction());
-          take_fluid_snapshot();
+          take_fluid_snapshot(FaceTable::Moment::before_step);
         });
   }
   if (dust_) dust_->add_parts(parts);

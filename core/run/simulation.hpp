@@ -136,7 +136,7 @@ class Simulation {
   void run_dem_cycle();
   void refresh_drag();
   void act_on_resolved();
-  void take_fluid_snapshot();
+  void take_fluid_snapshot(FaceTable::Moment moment);
   void load_clock(sdk::ArchiveReader& archive);
 
   scenario::Setup setup_;

@@ -206,13 +206,15 @@ void Simulation::add_particle_nodes() {
 
 void Simulation::add_last_nodes() {
   if (fluid_) {
-    step_graph_.add(
-        {"publish_fluid", {"fluid.velocity", "fluid.void_fraction"}, {"fluid.columns"}, [this] {
-           if (fluid_->solver().has_moving_bodies()) {
-             snapshots_.set_open_fraction(fluid_->solver().open_fraction());
-           }
-           take_fluid_snapshot();
-         }});
+    std::vector<std::string> seen{"fluid.velocity", "fluid.void_fraction"};
+    // Not while the dust asks for what passes the faces, too.
+    if (dust_ && snapshots_.has_face_fluxes()) seen.emplace_back("dust.concentration");
+    step_graph_.add({"publish_fluid", seen, {"fluid.columns"}, [this] {
+                       if (fluid_->solver().has_moving_bodies()) {
+                         snapshots_.set_open_fraction(fluid_->solver().open_fraction());
+                       }
+                       take_fluid_snapshot(FaceTable::Moment::after_step);
+                     }});
   }
   step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
                      snapshots_.take(*dem_);

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contract/scenes/scene_columns.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 
 namespace dust::contract {
 
-SceneColumns::SceneColumns(const SyntheticScene& scene) {
+SceneColumns::SceneColumns(const SyntheticScene& scene, bool wants_face_fluxes) {
   show_domain(scene);
   show_particles(scene);
   show_contacts(scene);
   show_walls(scene);
   show_fluid(scene);
+  if (wants_face_fluxes && !scene.pressure.empty()) show_faces(scene);
 }
 
 void SceneColumns::show_domain(const SyntheticScene& scene) {
@@ -146,6 +149,36 @@ void SceneColumns::show_fluid(const SyntheticScene& scene) {
   f.velocity_y = velocity_[1];
   f.velocity_z = velocity_[2];
   f.void_fraction = scene.void_fraction;
+}
+
+/// Between the numbers of the two cells, as open as the less open one; at a side those of its cell.
+void SceneColumns::show_faces(const SyntheticScene& scene) {
+  for (int d = 0; d < 3; ++d) {
+    Faces& faces = faces_[d];
+    faces = {};
+    int n[3] = {scene.count[0], scene.count[1], scene.count[2]};
+    n[d] += 1;
+    for (int k = 0; k < n[2]; ++k) {
+      for (int j = 0; j < n[1]; ++j) {
+        for (int i = 0; i < n[0]; ++i) {
+          int below[3] = {i, j, k};
+          int above[3] = {i, j, k};
+          below[d] = std::max(0, below[d] - 1);
+          above[d] = std::min(scene.count[d] - 1, above[d]);
+          const std::size_t a = cell_at(scene, below[0], below[1], below[2]);
+          const std::size_t b = cell_at(scene, above[0], above[1], above[2]);
+          const float open = std::min(scene.open_fraction[a], scene.open_fraction[b]);
+          const float voids = 0.5F * (scene.void_fraction[a] + scene.void_fraction[b]);
+          faces.flux.push_back(open * voids * 0.5F * (velocity_[d][a] + velocity_[d][b]));
+          faces.open.push_back(open);
+          faces.void_fraction.push_back(voids);
+        }
+      }
+    }
+  }
+  view_.fluid.faces = {faces_[0].flux,          faces_[1].flux,          faces_[2].flux,
+                       faces_[0].open,          faces_[1].open,          faces_[2].open,
+                       faces_[0].void_fraction, faces_[1].void_fraction, faces_[2].void_fraction};
 }
 
 }  // namespace dust::contract

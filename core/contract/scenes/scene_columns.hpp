@@ -12,7 +12,7 @@ namespace dust::contract {
 /// A scene's columns as a sensor sees them, in the scene's units.
 class SceneColumns {
  public:
-  explicit SceneColumns(const SyntheticScene& scene);
+  explicit SceneColumns(const SyntheticScene& scene, bool wants_face_fluxes = false);
   SceneColumns(const SceneColumns&) = delete;  // the view points into the columns
   SceneColumns& operator=(const SceneColumns&) = delete;
   ~SceneColumns() = default;
@@ -20,6 +20,10 @@ class SceneColumns {
   [[nodiscard]] const sdk::WorldView& view() const { return view_; }
 
  private:
+  /// Of the faces across one direction.
+  struct Faces {
+    std::vector<float> flux, open, void_fraction;
+  };
   struct WallColumns {
     std::vector<std::string> name, group;
     std::vector<sdk::Vec3> force, torque;
@@ -32,6 +36,7 @@ class SceneColumns {
   void show_contacts(const SyntheticScene& scene);
   void show_walls(const SyntheticScene& scene);
   void show_fluid(const SyntheticScene& scene);
+  void show_faces(const SyntheticScene& scene);
 
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> material_;
@@ -42,6 +47,7 @@ class SceneColumns {
   std::vector<sdk::WallImpact> impacts_;
   std::vector<float> pressure_;
   std::vector<float> velocity_[3];
+  Faces faces_[3];
   std::vector<double> class_diameters_;
   sdk::WorldView view_;
 };

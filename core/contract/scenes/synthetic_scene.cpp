@@ -46,7 +46,7 @@ void set_cells(SyntheticScene& scene, int nx, int ny, int nz) {
 
 void step(sdk::Sensor& sensor, SyntheticScene& scene) {
   scene.time += scene.interval;
-  SceneColumns columns(scene);
+  SceneColumns columns(scene, sensor.wants_face_fluxes());
   sensor.observe(columns.view());
   show_dust(sensor, scene, columns.view());
 }

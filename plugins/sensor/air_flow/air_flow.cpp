@@ -27,7 +27,7 @@ class AirFlow final : public sdk::Sensor {
   }
   static sdk::ModelInfo describe() {
     return {.name = "air_flow",
-            .version = "1.0",
+            .version = "2.0",
             .summary = "Air that passes a rectangle: volume flow both ways, and its velocities.",
             .equation = R"(\dot V = \int \varepsilon u_n\, dA)",
             .source = "own definition"};
@@ -50,8 +50,9 @@ class AirFlow final : public sdk::Sensor {
     }
   }
 
+  [[nodiscard]] bool wants_face_fluxes() const override { return true; }
   void observe(const sdk::WorldView& world) override {
-    if (sdk::FluidCells(world.fluid).is_empty()) return;
+    if (sdk::FluidFaces(world.fluid, axis_).is_empty()) return;
     const formula::Passing found = formula::through(world.fluid, axis_, p_.min, p_.max);
     figures_.add(world,
                  {k_per_hour * found.net(), k_per_hour * found.forward, k_per_hour * found.backward,

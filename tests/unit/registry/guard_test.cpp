@@ -231,6 +231,7 @@ struct Sensor final : Trial<sdk::Sensor> {
   using Trial::Trial;
   void observe(const sdk::WorldView& world) override { time = deed(what, world.time); }
   bool wants_contacts() const override { return true; }
+  bool wants_face_fluxes() const override { return true; }
   void series(sdk::FigureSink& sink) const override { sink.figure("time", time, "s"); }
   void summary(sdk::FigureSink& sink) const override { sink.figure("end", time, "s"); }
   void report(sdk::ReportSink& sink) const override {
@@ -501,6 +502,7 @@ TEST_CASE("a guarded emitter, motion and sensor shall answer as themselves") {
   sensor->fields(names);
   CHECK(names.text == "time end Heading one ");
   CHECK(sensor->wants_contacts());
+  CHECK(sensor->wants_face_fluxes());
   CHECK(sensor->wants_walls());
   CHECK(
       said([&] { guard<Sensor>(Deed::throws)->observe(world); }) ==

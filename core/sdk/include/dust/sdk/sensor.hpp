@@ -44,6 +44,16 @@ struct ContactColumns {
   std::span<const double> wall_velocity_x, wall_velocity_y, wall_velocity_z;
 };
 
+/// What passes the faces of the fluid's cells, as continuity has it: what goes into a cell comes
+/// out of it. Of the faces across d there is one more along d than there are cells, the lower side
+/// of the first cell first; x fastest. Only for sensors that want them (Sensor::wants_face_fluxes).
+/// The velocity between the grains is the flux over the open share and the void fraction.
+struct FaceColumns {
+  std::span<const float> flux_x, flux_y, flux_z;  ///< [m/s] volume over the area of the whole face
+  std::span<const float> open_x, open_y, open_z;  ///< [-] share that fluid passes, outside bodies
+  std::span<const float> void_fraction_x, void_fraction_y, void_fraction_z;  ///< [-] in that share
+};
+
 /// Fluid cells, x fastest, count_x * count_y * count_z numbers each; empty for runs without fluid.
 struct FluidColumns {
   Vec3 origin;   ///< [m]
@@ -55,6 +65,7 @@ struct FluidColumns {
   std::span<const float> pressure;                            ///< [Pa] without the hydrostatic part
   std::span<const float> void_fraction;                       ///< [-] 1 - solids over open volume
   std::span<const float> open_fraction;  ///< [-] share of the cell not inside a body
+  FaceColumns faces;                     ///< empty unless a sensor of the run wants them
 };
 
 /// A grain that has begun to touch a wall.
@@ -190,6 +201,8 @@ class Sensor : public Model {
   virtual void observe(const WorldView& world) = 0;
   /// Whether the view needs contacts, which cost a pass over all of them.
   [[nodiscard]] virtual bool wants_contacts() const { return false; }
+  /// Whether it reads FluidColumns::faces; these are copied only when a sensor does.
+  [[nodiscard]] virtual bool wants_face_fluxes() const { return false; }
   /// Columns for series.csv: the same names in the same order at every call.
   virtual void series(FigureSink& sink) const = 0;
   /// What a column of `series` stands for. What happens between two rows must not be lost: a load
