@@ -201,8 +201,6 @@ class Sensor : public Model {
   virtual void observe(const WorldView& world) = 0;
   /// Whether the view needs contacts, which cost a pass over all of them.
   [[nodiscard]] virtual bool wants_contacts() const { return false; }
-  /// Whether it reads FluidColumns::faces; these are copied only when a sensor does.
-  [[nodiscard]] virtual bool wants_face_fluxes() const { return false; }
   /// Columns for series.csv: the same names in the same order at every call.
   virtual void series(FigureSink& sink) const = 0;
   /// What a column of `series` stands for. What happens between two rows must not be lost: a load
@@ -217,6 +215,8 @@ class Sensor : public Model {
   virtual void fields(FieldSink&) const {}
   /// Whether it reads WorldView::walls; these are kept only when a sensor does.
   [[nodiscard]] virtual bool wants_walls() const { return false; }
+  /// Whether it reads FluidColumns::faces; these are copied only when a sensor does.
+  [[nodiscard]] virtual bool wants_face_fluxes() const { return false; }
 };
 
 }  // namespace dust::sdk
