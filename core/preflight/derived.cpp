@@ -236,6 +236,7 @@ Derived derive(const Setup& setup, const registry::Registry& registry,
   Derived derived;
   derived.expected_speed = expected_speed(setup, models.emitters, body_speed);
   derived.steps = derive_steps(setup, models);
+  derived.impact = softest_impact(setup, models, derived.steps.expected_speed);
   for (std::size_t n = 0; n < models.emitters.size(); ++n) {
     derived.emissions.push_back(
         count_grains(setup, models.bodies, setup.emitters[n], *models.emitters[n]));

@@ -6,6 +6,7 @@
 #include "preflight/emissions.hpp"
 #include "preflight/run_cost.hpp"
 #include "preflight/slope_drain.hpp"
+#include "preflight/softness.hpp"
 #include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/dust_setup.hpp"
@@ -28,6 +29,7 @@ struct ResolvedNumbers {
 struct Derived {
   double expected_speed = 0.0;  ///< [m/s] given, or of bodies, emitters, drops, openings and sides
   particles::TimeSteps steps;   ///< as the run takes them; without classes where no grains come
+  ImpactOverlap impact;         ///< the softest at the speed that the steps are made for
   std::vector<EmissionNumbers> emissions;
   std::vector<ResolvedNumbers> resolved;
   BodyWork bodies;

@@ -11,6 +11,7 @@
 #include "preflight/places/release_check.hpp"
 #include "preflight/places/resolved_check.hpp"
 #include "preflight/places/sensor_places.hpp"
+#include "preflight/softness.hpp"
 #include "scenario/diagnostics.hpp"
 
 #include <stdexcept>
@@ -42,6 +43,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_resolved_at_thin_bodies(read.setup, models, diagnostics);
   check_bodies_at_periodic_sides(read.setup, models, diagnostics);
   check_reach(read.setup, models, diagnostics);
+  check_softness(read.setup, models, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);
   check_sensor_places(read.setup, registry, diagnostics);
 }

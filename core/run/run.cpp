@@ -19,6 +19,7 @@
 #include "run/folder/output_folder.hpp"
 #include "run/progress/live_report.hpp"
 #include "run/progress/progress.hpp"
+#include "run/run_checks.hpp"
 #include "run/run_options.hpp"
 #include "run/run_times.hpp"
 #include "run/simulation.hpp"
@@ -289,16 +290,19 @@ class Run {
     if (facts_.status == "finished" && simulation_.steps_done() % steps_per_.row != 0) write_row();
   }
 
+  /// On the terminal, in run.log and in summary.json.
+  void warn(const std::string& text) {
+    base::log_warning(text);
+    facts_.warnings.push_back(text);
+  }
+
   int close() {
     take_times();
-    std::vector<std::string> texts = shortfalls(simulation_);
-    if (facts_.status != "failed") {  // which has its own reason, often this one
-      for (std::string& text : overlap_warnings(simulation_)) texts.push_back(std::move(text));
-    }
-    for (const std::string& text : texts) {
-      base::log_warning(text);
-      facts_.warnings.push_back(text);
-    }
+    for (const std::string& text : shortfalls(simulation_)) warn(text);
+    const auto& dem = simulation_.dem();
+    const std::string overlaps = overlap_warning(dem.report(), dem.time_steps().expected_speed);
+    // A run that failed has its own reason, often this one.
+    if (!overlaps.empty() && facts_.status != "failed") warn(overlaps);
     for (const std::string& text : audit_lines(simulation_, forces_)) base::log_info(text);
     const bool has_summary = survives([this] { write_summary(folder_, simulation_, facts_); });
     if (live_ != nullptr) live_->publish_progress(simulation_, facts_, Pace(simulation_.time()));

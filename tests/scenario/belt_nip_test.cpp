@@ -56,7 +56,7 @@ TEST_CASE("a grain that is shot through the belt shall leave a warning") {
   CHECK(summary["health"]["largest_overlap_over_radius"].get<double>() > 1.0);
   REQUIRE(summary["warnings"].size() == 1);
   CHECK(summary["warnings"][0].get<std::string>().find(
-            "a grain was pressed into a wall or another grain beyond its centre") == 0);
+            "grains went through each other or through walls: the largest overlap is ") == 0);
 }
 
 TEST_CASE("a plough before the tail pulley shall lead a grain off over the belt's edge") {

@@ -98,18 +98,6 @@ void add_force_table(const ForceShares& shares, Json& tables) {
                     {"rows", Json::array({row})}});
 }
 
-std::vector<std::string> overlap_warnings(const Simulation& s) {
-  // Not of fine grains: pressed between coarse ones they are softer than that by design.
-  const double overlap = s.dem().report().largest_coarse_overlap;
-  if (!(overlap > 1.0)) return {};
-  return {
-      "a grain was pressed into a wall or another grain beyond its centre (overlap over radius " +
-      digits_text(overlap, 3) +
-      "): where it went from there means nothing. Drawn into a nip, such as that inside a belt "
-      "at its pulley: keep grains out of it; else too soft or too fast for the step: give "
-      "time.expected_speed, a smaller time.dem_step or a larger young_modulus"};
-}
-
 std::vector<std::string> audit_lines(const Simulation& s, const ForceShares& shares) {
   std::vector<std::string> lines;
   std::string active;

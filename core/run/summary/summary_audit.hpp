@@ -22,9 +22,6 @@ namespace dust::run {
 /// A table for the report; none without samples.
 void add_force_table(const ForceShares& shares, nlohmann::ordered_json& tables);
 
-/// Warns where a particle's centre was inside a wall or another particle; none else.
-[[nodiscard]] std::vector<std::string> overlap_warnings(const Simulation& s);
-
 /// What run.log says at the end.
 [[nodiscard]] std::vector<std::string> audit_lines(const Simulation& s, const ForceShares& shares);
 

@@ -38,6 +38,24 @@ TEST_CASE("a grain whose position or velocity is not a number shall stop the run
   }
 }
 
+TEST_CASE("overlaps beyond what contact laws hold for shall be told at the end with their causes") {
+  dust::particles::DemReport report;
+  const auto text = [&](double coarse, double fine) {
+    report.largest_coarse_overlap = coarse;
+    report.largest_fine_overlap = fine;
+    return dust::run::overlap_warning(report, 0.5);
+  };
+  CHECK(text(0.29, 0.29) == "");
+  CHECK(text(0.31, 2.0).starts_with("the largest overlap of grains is 0.31 of the radius"));
+  CHECK(text(0.31, 0.0).find("is an MPa missing?") != std::string::npos);
+  const std::string through = text(1.86, 0.0);
+  CHECK(through.starts_with("grains went through each other or through walls"));
+  CHECK(through.find("1.86 of the radius") != std::string::npos);
+  CHECK(through.find("not to be trusted") != std::string::npos);
+  CHECK(through.find("faster than time.expected_speed, 0.5 m/s") != std::string::npos);
+  CHECK(text(0.1, 0.4).starts_with("fine grains were crushed between coarse ones"));
+}
+
 TEST_CASE("the mean kinetic energy shall be that of translation and of rotation") {
   dust::test::Grains grains;
   CHECK(dust::run::kinetic_energy_per_grain(grains.rows()) ==

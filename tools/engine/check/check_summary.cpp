@@ -251,6 +251,22 @@ void print_step(std::ostream& out, const Setup& setup, const TimeSteps& steps) {
   out << '\n';
 }
 
+/// How far grains give way in a collision: what tells a stiffness in the wrong unit.
+void print_impact(std::ostream& out, const Setup& setup, const Derived& derived) {
+  const preflight::ImpactOverlap& impact = derived.impact;
+  if (!(impact.ratio > 0.0)) return;
+  const auto& pair = setup.interactions[impact.interaction];
+  out << "             largest overlap of an impact at " << digits(impact.speed)
+      << " m/s: " << digits(100.0 * impact.ratio) << " % of the radius ("
+      << material_name(setup, pair.material_i) << " on " << material_name(setup, pair.material_j)
+      << ")";
+  if (impact.ratio > preflight::k_soft_overlap) {
+    out << ";\n             soft: for " << digits(100.0 * preflight::k_soft_overlap) << " % "
+        << stiffness_advice(setup, impact);
+  }
+  out << '\n';
+}
+
 void print_steps(std::ostream& out, const Setup& setup, const Derived& derived) {
   const TimeSteps& steps = derived.steps;
   if (steps.classes.empty()) return;
@@ -273,6 +289,7 @@ void print_steps(std::ostream& out, const Setup& setup, const Derived& derived) 
                    step_note(steps, size)});
   }
   print_step(out, setup, steps);
+  print_impact(out, setup, derived);
   out << "             narrowest extent / largest grain W/D = "
       << digits(derived.width_over_diameter);
   if (derived.diameter_over_spacing > 0.0) {
@@ -364,6 +381,7 @@ std::string check_json(const Setup& setup, const DustSetup& dust, const Derived&
                                  {"stable_step_s", c.stable_step},
                                  {"level", c.level}});
   }
+  j["impact_overlap_over_radius"] = derived.impact.ratio;
   j["diameter_over_spacing"] = derived.diameter_over_spacing;
   if (!derived.resolved.empty()) {
     j["resolved"] = nlohmann::ordered_json::array();

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far grains overlap in an impact, and what a scenario with a missing MPa is told.
+#include "preflight/softness.hpp"
+
+#include "preflight/derived.hpp"
+#include "support/approx.hpp"
+#include "unit/scenario/support.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+using namespace dust;
+
+namespace {
+
+// The duration of a Hertzian impact is rounded to five digits.
+constexpr double k_duration = 1e-4;
+
+const std::string k_box = R"(
+name: box
+time: {end: 0.1 s, fluid_step: 1 ms, output_every: 0.1 s, expected_speed: 2 m/s}
+gravity: [0, 0, -9.81]
+domain:
+  min: [0, 0, 0]
+  max: [100, 50, 200 mm]
+  boundaries:
+    left: {grains: open}
+    right: {grains: open}
+    front: {grains: open}
+    back: {grains: open}
+    bottom: {grains: wall, material: steel}
+    top: {grains: open}
+materials:
+  sand: {density: 2500, young_modulus: 50 MPa, poisson_ratio: 0.3}
+  steel: {density: 7800, young_modulus: 500 MPa, poisson_ratio: 0.3}
+interactions:
+  - between: [sand, sand]
+    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.5}
+  - between: [sand, steel]
+    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.5}
+emitters:
+  feed: {model: feed, material: sand, mass_flow: 0.1 kg/s, min: [20, 10, 150 mm], max: [60, 40, 150 mm], velocity: [0, 0, -1 m/s], diameters: [4 mm], mass_fractions: [1]}
+fluid: none
+)";
+
+using Set = std::vector<scenario::Override>;
+
+const registry::Registry& shipped() {
+  static registry::Registry registry;
+  static const bool is_loaded = (registry.load({DUST_TEST_PLUGINS}), true);
+  (void)is_loaded;
+  return registry;
+}
+
+scenario::ReadResult read_box(const Set& set) {
+  const Folder folder;
+  return preflight::read_scenario(folder.write("box.yaml", k_box), set, shipped());
+}
+
+preflight::ImpactOverlap impact(const Set& set) {
+  return preflight::derive(read_box(set).setup, shipped()).impact;
+}
+
+/// The one warning; "" without any.
+std::string warning(const Set& set) {
+  const auto all = read_box(set).warnings;
+  REQUIRE(all.size() < 2);
+  return all.empty() ? std::string() : all.front();
+}
+
+}  // namespace
+
+TEST_CASE("the overlap of an impact shall be that of Hertz, of any size of grains") {
+  // On the wall: 1/2 m v^2 = 8/15 E* sqrt(R) delta^(5/2), so
+  // delta/R = (5 pi rho v^2 / (4 E*))^(2/5).
+  const double share = 1.0 - 0.3 * 0.3;
+  const double young = 1.0 / (share / 5e7 + share / 5e8);
+  const double expected = std::pow(5.0 * std::numbers::pi * 2500.0 * 4.0 / (4.0 * young), 0.4);
+  CHECK(impact({}).ratio == test::approx(expected).epsilon(k_duration));
+  CHECK(impact({}).interaction == 1);
+  CHECK(impact({}).speed == 2.0);
+  CHECK(impact({{"emitters.feed.diameters", "[1 mm]"}}).ratio ==
+        test::approx(expected).epsilon(k_duration));
+  // Half the mass, half the radius, and half of E* of the grains' own: the wall is not met.
+  const double both = 0.5 * 5e7 / share;
+  const double of_two =
+      std::pow(5.0 * std::numbers::pi * 2500.0 * 4.0 / (4.0 * both), 0.4) * std::pow(0.5, 0.2);
+  CHECK(impact({{"domain.boundaries.bottom", "{grains: open}"}}).ratio ==
+        test::approx(of_two).epsilon(k_duration));
+}
+
+TEST_CASE("the overlap of a linear spring shall be that of its own collision time") {
+  // delta = v sqrt(m / k), on the wall.
+  const double mass = 2500.0 * std::numbers::pi / 6.0 * std::pow(4e-3, 3);
+  const std::string hooke =
+      "{model: hooke, normal_stiffness: 1 kN/m, restitution: 0.9, friction: 0.3}";
+  const auto soft = impact({{"interactions[1].contact", hooke}});
+  CHECK(soft.ratio == test::approx(2.0 * std::sqrt(mass / 1e3) / 2e-3).epsilon(1e-9));
+  CHECK_FALSE(soft.is_hertz);
+  const std::string text =
+      warning({{"interactions[1].contact", hooke}, {"time.expected_speed", "3"}});
+  CHECK(text.find("interactions[1].contact: grains of 4 mm overlap by 43 % of their radius") !=
+        std::string::npos);
+  CHECK(text.find("make interactions[1].contact at least 76 times as stiff") != std::string::npos);
+}
+
+TEST_CASE("a missing MPa shall be warned of with the modulus to write") {
+  CHECK(warning({}) == "");
+  const std::string text = warning({{"materials.sand.young_modulus", "5"}});
+  INFO(text);
+  CHECK(text.find("times their radius in an impact at 2 m/s (sand on steel)") != std::string::npos);
+  CHECK(text.find("through each other and through walls") != std::string::npos);
+  CHECK(text.find("young_modulus at least") != std::string::npos);
+  CHECK(text.find("(it is 5 Pa: was MPa meant?)") != std::string::npos);
+  // Soft on purpose: said in the line of the check, not warned of.
+  CHECK(warning({{"materials.sand.young_modulus", "5 MPa"}}) == "");
+}
+
+TEST_CASE("the modulus that is advised shall be that of a small overlap") {
+  for (const char* soft : {"5", "20 kPa", "1 MPa"}) {
+    CAPTURE(soft);
+    const scenario::ReadResult read = read_box({{"materials.sand.young_modulus", soft}});
+    const auto before = preflight::derive(read.setup, shipped()).impact;
+    const std::string advice = preflight::stiffness_advice(read.setup, before);
+    INFO(advice);
+    const std::string words = "give materials.sand.young_modulus at least ";
+    REQUIRE(advice.starts_with(words));
+    std::string wanted = advice.substr(words.size());
+    wanted = wanted.substr(0, wanted.find(" ("));
+    const double after = impact({{"materials.sand.young_modulus", wanted}}).ratio;
+    CHECK(after <= preflight::k_soft_overlap * (1.0 + k_duration));
+    CHECK(after > 0.9 * preflight::k_soft_overlap);
+  }
+}
