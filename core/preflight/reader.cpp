@@ -5,12 +5,14 @@
 #include "preflight/dust_check.hpp"
 #include "preflight/emissions.hpp"
 #include "preflight/flow_check.hpp"
+#include "preflight/places/belt_check.hpp"
 #include "preflight/places/body_places.hpp"
 #include "preflight/places/periodic_check.hpp"
 #include "preflight/places/reach_check.hpp"
 #include "preflight/places/release_check.hpp"
 #include "preflight/places/resolved_check.hpp"
 #include "preflight/places/sensor_places.hpp"
+#include "preflight/places/suction_cover.hpp"
 #include "preflight/softness.hpp"
 #include "scenario/diagnostics.hpp"
 
@@ -35,13 +37,16 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   ParticleModels models = make_particle_models(read.setup, registry);
   const auto first = first_grains(read.setup, models, has_openings(read.setup, read.dust));
   check_suctions(read.setup, models, diagnostics);
+  check_suction_covers(read.setup, models, diagnostics);
   check_openings(read.setup, read.dust, models, first, diagnostics);
   check_drift(read.setup, read.dust, models, diagnostics);
   check_liberation(read.setup, read.dust, registry);
   check_feeds(read.setup, read.dust, read.start.from.has_value(), models, diagnostics);
   check_body_places(read.setup, models, diagnostics);
+  check_mesh_sizes(read.setup, models, diagnostics);
   check_resolved_at_thin_bodies(read.setup, models, diagnostics);
   check_bodies_at_periodic_sides(read.setup, models, diagnostics);
+  check_belts(read.setup, models, diagnostics);
   check_reach(read.setup, models, diagnostics);
   check_softness(read.setup, models, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);

@@ -20,6 +20,9 @@ using sdk::MaterialProperties;
 
 /// \f$ v t_c / \delta \f$ of an elastic impact by Hertz.
 constexpr double k_hertz_duration = 2.9432;
+/// [kg/m3] Grains heavier than any material are meant to stay where they are: a bed that air goes
+/// through, for its drag.
+constexpr double k_fixed = 1e5;
 /// Below this modulus [Pa] the unit is asked for: no grain is as soft as 10 kPa.
 constexpr double k_hardly_meant = 1e4;
 
@@ -73,7 +76,7 @@ double largest_overlap(const Setup& setup, const ParticleModels& models, const K
 std::string modulus_text(double pascal) {
   const double step = std::pow(10.0, std::floor(std::log10(pascal)) - 1.0);
   const double rounded = step * std::ceil(pascal / step * (1.0 - 1e-9));
-  if (rounded >= 1e9) return base::digits_text(rounded / 1e9, 2) + " GPa";
+  if (rounded >= 1e9) return base::plain_text(rounded / 1e9, 2) + " GPa";
   if (rounded >= 1e6) return base::digits_text(rounded / 1e6, 3) + " MPa";
   if (rounded >= 1e3) return base::digits_text(rounded / 1e3, 3) + " kPa";
   return base::digits_text(rounded, 3) + " Pa";
@@ -119,7 +122,7 @@ ImpactOverlap softest_impact(const Setup& setup, const ParticleModels& models, d
     for (std::size_t n = 0; n < models.laws.size(); ++n) {
       const PairLaws& law = models.laws[n];
       const auto look = [&](int m, int other) {
-        if (!kinds.of_grains.contains(m)) return;
+        if (!kinds.of_grains.contains(m) || properties_of(setup, m).density > k_fixed) return;
         const double ratio =
             2.0 * largest_overlap(setup, models, kinds, law, grain, m, other) / diameter;
         if (ratio > softest.ratio * (1.0 + 1e-9)) {

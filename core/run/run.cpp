@@ -3,6 +3,7 @@
 #include "base/log.hpp"
 #include "base/write_error.hpp"
 #include "dust/sdk/error.hpp"
+#include "fluid/geometry/body_suction.hpp"
 #include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
 #include "io/scenario_leaves.hpp"
@@ -566,6 +567,9 @@ int run_scenario(const RunOptions& options) {
         read.setup, make_models_of(read, registry, origin, resumed), 0, read.dust);
   } catch (const registry::PlacedFault& e) {
     throw base::UserError(e.line());
+  } catch (const fluid::OpeningError& e) {
+    const auto& suction = read.setup.bodies[e.body()].suction;
+    throw base::UserError(scenario::place(suction->where) + ": error: " + e.what());
   } catch (const sdk::ModelError& e) {
     throw base::UserError(options.scenario.string() + ": error: " + e.what());
   }

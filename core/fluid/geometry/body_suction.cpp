@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/geometry/body_suction.hpp"
 
-#include "dust/sdk/error.hpp"
 #include "fluid/geometry/body_field.hpp"
 
 #include <array>
@@ -116,10 +115,12 @@ void BodySuction::find_cells(const Grid& grid, const bodies::BodySet& bodies,
     // A surface that has come to lie on a plane of the grid has closed the cell it was in.
     if (!(opening.area > 0.0)) add_cells(opening, scene, Cells::passable);
     if (!(opening.area > 0.0)) {
-      throw sdk::ModelError("bodies." + body.name +
-                            ".suction: no part of the body's surface between min and max meets the "
-                            "fluid: give the corners of a box round the opening, on the surface as "
-                            "the body stands in its own frame");
+      throw OpeningError(
+          opening.body,
+          "bodies." + body.name +
+              ".suction: no part of the body's surface between min and max meets the fluid: give "
+              "the corners of a box round the opening, on the surface as the body stands in its "
+              "own frame, where no other body covers it");
     }
     for (double& share : opening.share) share /= opening.area * grid.cell_volume();
   }

@@ -2,16 +2,29 @@
 #pragma once
 
 #include "bodies/body_set.hpp"
+#include "dust/sdk/error.hpp"
 #include "dust/sdk/table.hpp"
 #include "fluid/geometry/geometry.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/pressure/continuity.hpp"
 #include "fluid/step/time_mean.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace dust::fluid {
+
+/// An opening of a body that meets no fluid; which body, so that its place can be given.
+class OpeningError : public sdk::ModelError {
+ public:
+  OpeningError(std::size_t body, const std::string& text) : sdk::ModelError(text), body_(body) {}
+  [[nodiscard]] std::size_t body() const { return body_; }
+
+ private:
+  std::size_t body_;
+};
 
 /// Openings in the surfaces of bodies that suck a given volume flow: extraction hoods, nozzles.
 /// Each cell at the opening gives off its share of the flow by the area of the surface in it, which
@@ -21,7 +34,7 @@ class BodySuction {
  public:
   explicit BodySuction(const bodies::BodySet& bodies);
 
-  /// Finds the cells at the openings. Throws sdk::ModelError for an opening that meets no fluid.
+  /// Finds the cells at the openings. Throws OpeningError for an opening that meets no fluid.
   void find_cells(const Grid& grid, const bodies::BodySet& bodies, const Geometry& geometry,
                   double time);
   /// Adds the velocity into the openings to that of the surface's points.

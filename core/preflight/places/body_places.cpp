@@ -3,11 +3,39 @@
 
 #include "base/text.hpp"
 #include "bodies/survey/surface_in_box.hpp"
+#include "fluid/grid.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 namespace dust::preflight {
+namespace {
+
+bool is_drawn_elsewhere(const bodies::Body& body) { return !body.shape->notes().empty(); }
+
+/// [m] Edges of the box round a mesh, in its own frame.
+sdk::Vec3 extent_of_mesh(const bodies::Shape& mesh) {
+  constexpr double k_far = std::numeric_limits<double>::max();
+  sdk::Vec3 low{k_far, k_far, k_far}, high{-k_far, -k_far, -k_far};
+  for (const sdk::Vec3& corner : mesh.triangles({}, {}, 0.0)) {
+    for (int d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], corner[d]);
+      high[d] = std::max(high[d], corner[d]);
+    }
+  }
+  return high - low;
+}
+
+/// What a mesh is smaller than: "the smallest grain (7 mm)"; "" where it is large enough.
+std::string what_is_larger(double extent, double grain, double cell) {
+  if (extent < grain) return "the smallest grain (" + base::length_text(grain) + ")";
+  if (extent < cell) return "a cell of the fluid (" + base::length_text(cell) + ")";
+  return "";
+}
+
+}  // namespace
 
 void check_body_places(const scenario::Setup& setup, const ParticleModels& models,
                        scenario::Diagnostics& diagnostics) {
@@ -22,16 +50,39 @@ void check_body_places(const scenario::Setup& setup, const ParticleModels& model
     if (is_moved) continue;
     const double distance = std::abs(body.nearest(middle).distance);
     if (bodies::may_meet_box(body, body.placement(0.0), middle, half, finest)) continue;
-    const bool is_mesh = !body.shape->notes().empty();
+    diagnostics.warning(
+        setup.bodies[n].shape.where,
+        "bodies." + body.name +
+            ": none of its surface is in the domain, the "
+            "nearest of it " +
+            base::length_text(distance) +
+            " from the domain's middle: nothing "
+            "meets it; " +
+            (is_drawn_elsewhere(body) ? "is the unit of its file right (unit: 1 mm)?"
+                                      : "are its place and size right?"));
+  }
+}
+
+void check_mesh_sizes(const scenario::Setup& setup, const ParticleModels& models,
+                      scenario::Diagnostics& diagnostics) {
+  const double grain = models.class_diameters.empty() ? 0.0 : models.class_diameters.front();
+  double cell = 0.0;
+  if (setup.fluid) {
+    const sdk::Vec3 h =
+        fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, {}).spacing;
+    cell = std::min({h.x, h.y, h.z});
+  }
+  for (std::size_t n = 0; n < models.bodies.size(); ++n) {
+    const bodies::Body& body = models.bodies[n];
+    if (!is_drawn_elsewhere(body)) continue;
+    const sdk::Vec3 extent = extent_of_mesh(*body.shape);
+    const std::string larger =
+        what_is_larger(std::max({extent.x, extent.y, extent.z}), grain, cell);
+    if (larger.empty()) continue;
     diagnostics.warning(setup.bodies[n].shape.where,
-                        "bodies." + body.name +
-                            ": none of its surface is in the domain, the "
-                            "nearest of it " +
-                            base::length_text(distance) +
-                            " from the domain's middle: nothing "
-                            "meets it; " +
-                            (is_mesh ? "is the unit of its file right (unit: 1 mm)?"
-                                     : "are its place and size right?"));
+                        "bodies." + body.name + ": the mesh measures " +
+                            base::extent_text({extent.x, extent.y, extent.z}) + ", less than " +
+                            larger + "; is it drawn in metres? Then give unit: 1 m");
   }
 }
 

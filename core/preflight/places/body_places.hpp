@@ -12,4 +12,9 @@ namespace dust::preflight {
 void check_body_places(const scenario::Setup& setup, const ParticleModels& models,
                        scenario::Diagnostics& diagnostics);
 
+/// Warns of meshes that are smaller than the smallest grain or than a cell of the fluid: drawn in
+/// metres and read with `unit: 1 mm`.
+void check_mesh_sizes(const scenario::Setup& setup, const ParticleModels& models,
+                      scenario::Diagnostics& diagnostics);
+
 }  // namespace dust::preflight

@@ -2,10 +2,12 @@
 #include "preflight/places/release_check.hpp"
 
 #include "base/text.hpp"
+#include "preflight/journey.hpp"
 #include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace dust::preflight {
@@ -99,6 +101,40 @@ void report(const scenario::EmitterSpec& spec, const Misplaced& outside, const M
   }
 }
 
+/// [s] In which a lone grain takes on the velocity of the fluid by Stokes' drag,
+/// \f$ \rho d^2 / (18 \mu) \f$; infinite without a fluid.
+double relaxation_time(const scenario::Setup& setup, const scenario::EmitterSpec& spec,
+                       double diameter) {
+  if (!setup.fluid) return std::numeric_limits<double>::infinity();
+  const auto& material = setup.materials[static_cast<std::size_t>(spec.material)];
+  return material.properties.density * diameter * diameter / (18.0 * setup.fluid->viscosity);
+}
+
+/// Warns of a stream that falls out of the domain and meets nothing, where bodies are there to be
+/// met and the grains are too heavy for the fluid to carry them.
+void check_way(const scenario::Setup& setup, const ParticleModels& models,
+               const scenario::EmitterSpec& spec, const std::vector<sdk::InsertionRequest>& grains,
+               scenario::Diagnostics& diagnostics) {
+  constexpr std::size_t k_followed = 8;
+  if (grains.empty() || setup.bodies.empty()) return;
+  const std::size_t all = std::min(k_followed, grains.size());
+  double longest = 0.0;
+  for (std::size_t q = 0; q < all; ++q) {
+    const sdk::InsertionRequest& grain = grains[q * grains.size() / all];
+    const Journey journey =
+        follow_grain(setup, models.bodies, grain, std::numeric_limits<double>::infinity());
+    if (std::isfinite(journey.first_touch) || !std::isfinite(journey.duration)) return;
+    if (relaxation_time(setup, spec, grain.diameter) < journey.duration) return;
+    longest = std::max(longest, journey.duration);
+  }
+  diagnostics.warning(spec.model.where,
+                      spec.model.path + ": its grains leave the domain after at most " +
+                          base::digits_text(longest, 2) +
+                          " s of free fall and meet nothing on their way; are its place and "
+                          "velocity and the sign of gravity, " +
+                          base::place_text(setup.gravity) + "/s2, right?");
+}
+
 /// Warns of a stream that never begins.
 void check_times(const scenario::Setup& setup, const scenario::EmitterSpec& spec,
                  const sdk::Emitter& emitter, scenario::Diagnostics& diagnostics) {
@@ -140,6 +176,9 @@ void check_release(const scenario::Setup& setup, const scenario::DustSetup& dust
       look_at_bodies(models.bodies, place, radius, grain.time, stuck);
     }
     report(setup.emitters[n], outside, stuck, all, diagnostics);
+    if (stuck.count + outside.count == 0) {
+      check_way(setup, models, setup.emitters[n], grains, diagnostics);
+    }
   }
 }
 

@@ -16,12 +16,15 @@ using sdk::Vec3;
 
 /// [-] of the domain's diagonal: places on a side are in the domain, however they were rounded.
 constexpr double k_rounding = 1e-9;
+/// The sensor of a falling stream, which counts places across gravity.
+constexpr std::string_view k_trajectory = "trajectory";
 
 class Places {
  public:
   Places(const scenario::Setup& setup, const scenario::SensorSpec& spec,
          const std::vector<sdk::Parameter>& parameters)
       : domain_(setup.domain),
+        gravity_(setup.gravity),
         spec_(spec),
         parameters_(parameters),
         slack_(k_rounding * norm(setup.domain.max - setup.domain.min)) {}
@@ -35,6 +38,8 @@ class Places {
                             base::place_text(*high) + " lies outside" + domain_text());
     }
     check_plane(diagnostics);
+    check_point(diagnostics);
+    check_level(diagnostics);
     for (const std::string_view name : {"from", "to"}) {
       if (const auto* place = get<Vec3>(name)) check_place(name, *place, diagnostics);
     }
@@ -70,6 +75,32 @@ class Places {
                           base::place_text(*low) + " to " + base::place_text(*high) +
                           ": nothing is seen there; move one of them");
   }
+  /// A place that nothing else goes with, or a plane without ends.
+  void check_point(scenario::Diagnostics& diagnostics) const {
+    const auto* point = get<Vec3>("point");
+    if (point == nullptr || get<Vec3>("min") != nullptr) return;
+    const auto* normal = get<Vec3>("normal", sdk::dimension::none);
+    if (normal == nullptr) check_place("point", *point, diagnostics);
+  }
+  /// A direction of which the part across gravity counts.
+  void check_level(scenario::Diagnostics& diagnostics) const {
+    if (spec_.model.name != k_trajectory) return;
+    if (!(norm(gravity_) > 0.0)) {
+      diagnostics.error(spec_.model.where,
+                        spec_.model.path +
+                            ": needs gravity to know which way is down, and there is none: give "
+                            "gravity, or take the sensor out");
+      return;
+    }
+    const auto* along = get<Vec3>("along", sdk::dimension::none);
+    if (along == nullptr || !(norm(*along) > 0.0)) return;
+    const Vec3 down = gravity_ / norm(gravity_);
+    if (norm(*along - dot(*along, down) * down) > k_rounding * norm(*along)) return;
+    diagnostics.error(spec_.model.where,
+                      path("along") +
+                          ": lies along gravity, and its part across gravity is what counts: give "
+                          "the way that the belt runs");
+  }
   [[nodiscard]] bool meets(Vec3 low, Vec3 high) const {
     for (int d = 0; d < 3; ++d) {
       if (high[d] < domain_.min[d] - slack_ || low[d] > domain_.max[d] + slack_) return false;
@@ -90,6 +121,7 @@ class Places {
   }
 
   const scenario::DomainSpec& domain_;
+  Vec3 gravity_;
   const scenario::SensorSpec& spec_;
   const std::vector<sdk::Parameter>& parameters_;
   double slack_;

@@ -92,8 +92,18 @@ class ValueReader {
   }
   bool in_range(const Node& node, double value) {
     if (parameter_.range.contains(value)) return true;
-    fail(node, printable(node.text) + " is outside " + range_text(parameter_));
+    fail(node, printable(node.text) + " is outside " + range_text(parameter_) + degrees(node));
     return false;
+  }
+  /// What a bare number that is too large for an angle is mostly meant to be.
+  std::string degrees(const Node& node) const {
+    constexpr double k_degree = std::numbers::pi / 180.0;
+    if (parameter_.dimension != sdk::dimension::angle || !node.is_text()) return {};
+    std::string error;
+    const auto bare = split_number(node.text, error);
+    if (!bare || !bare->unit.empty() || std::abs(bare->number) < std::numbers::pi) return {};
+    if (!parameter_.range.contains(k_degree * bare->number)) return {};
+    return ": a bare number is in rad; is '" + printable(node.text) + " deg' meant?";
   }
 
   std::optional<Value> number(const Node& node) {

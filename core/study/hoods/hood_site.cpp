@@ -119,6 +119,17 @@ std::vector<sdk::Vec3> steps_within(double reach, const DuctSites& sites) {
   return steps;
 }
 
+/// Of the volume of a duct, the part that another one takes as well.
+double shared_part(const HoodSite& site, const HoodSite& other) {
+  double part = 1.0;
+  for (int d = 0; d < 3; ++d) {
+    const double low = std::max(site.body_min[d], other.body_min[d]);
+    const double high = std::min(site.body_max[d], other.body_max[d]);
+    part *= std::max(0.0, high - low) / (site.body_max[d] - site.body_min[d]);
+  }
+  return part;
+}
+
 }  // namespace
 
 double HoodSite::area() const {
@@ -173,6 +184,29 @@ std::optional<HoodSite> site_at(const LowPressurePlace& place, double opening,
   site.place = place.number;
   site.moved = distance;
   return site;
+}
+
+HoodSites sites_at(std::span<const LowPressurePlace> places, std::size_t count, double opening,
+                   const HoodScene& scene) {
+  constexpr double k_taken = 0.5;
+  HoodSites found;
+  for (const LowPressurePlace& place : places) {
+    if (found.sites.size() == count) break;
+    const auto site = site_at(place, opening, scene);
+    if (!site) {
+      found.without_room.push_back(place.number);
+      continue;
+    }
+    const auto taken =
+        std::find_if(found.sites.begin(), found.sites.end(),
+                     [&](const HoodSite& other) { return shared_part(*site, other) > k_taken; });
+    if (taken == found.sites.end()) {
+      found.sites.push_back(*site);
+    } else {
+      found.shared.push_back({place.number, taken->place});
+    }
+  }
+  return found;
 }
 
 }  // namespace dust::study

@@ -3,7 +3,10 @@
 
 #include "study/hoods/hood_scene.hpp"
 
+#include <cstddef>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace dust::study {
 
@@ -32,5 +35,23 @@ struct HoodSite {
 /// where none fits within one opening of the place.
 [[nodiscard]] std::optional<HoodSite> site_at(const LowPressurePlace& place, double opening,
                                               const HoodScene& scene);
+
+/// A place whose hood would stand where that of a deeper one does.
+struct SharedSite {
+  int place = 0;  ///< its number
+  int with = 0;   ///< that of the deeper one
+};
+
+/// The sites of the deepest places that have room each for themselves.
+struct HoodSites {
+  std::vector<HoodSite> sites;
+  std::vector<int> without_room;   ///< numbers of places where no hood fits
+  std::vector<SharedSite> shared;  ///< places left out because their site is taken
+};
+
+/// Sites for up to `count` of the places, which come deepest first. A site is taken where its duct
+/// shares more than half of itself with one before.
+[[nodiscard]] HoodSites sites_at(std::span<const LowPressurePlace> places, std::size_t count,
+                                 double opening, const HoodScene& scene);
 
 }  // namespace dust::study

@@ -10,6 +10,7 @@
 #include "scenario/text/units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -283,13 +284,13 @@ std::vector<HoodFlow> flows_of(const std::string& text) {
 std::vector<HoodFlow> usual_flows(double area) {
   constexpr double k_litres_per_minute = 6e4;
   constexpr double k_cubic_metres_per_hour = 3600.0;
-  constexpr double k_large = 1.0 / 60.0;  // m3/s: above 1000 l/min in m3/h
+  constexpr double k_large = 1.0 / 60.0;  // m3/s: with one above 1000 l/min all are in m3/h
+  constexpr std::array k_speeds = {0.5, 1.0, 2.0, 4.0};
+  const bool is_large = k_speeds.back() * area > k_large;
+  const double factor = is_large ? k_cubic_metres_per_hour : k_litres_per_minute;
   std::vector<HoodFlow> flows;
-  for (const double speed : {0.5, 1.0, 2.0, 4.0}) {
-    const double flow = speed * area;
-    const bool is_large = flow > k_large;
-    const double factor = is_large ? k_cubic_metres_per_hour : k_litres_per_minute;
-    const std::string number = base::digits_text(factor * flow, 2);
+  for (const double speed : k_speeds) {
+    const std::string number = base::digits_text(factor * speed * area, 2);
     flows.push_back({std::stod(number) / factor,
                      base::digits_text(std::stod(number), 8) + (is_large ? " m3/h" : " l/min")});
   }
@@ -302,14 +303,10 @@ HoodStudy hood_study(const fs::path& folder, const HoodStudyOptions& options,
   const HoodScene scene(folder, run.text);
   HoodStudy study;
   study.opening = options.opening > 0.0 ? options.opening : usual_opening(scene);
-  for (const LowPressurePlace& place : run.places) {
-    if (study.sites.size() == options.places) break;
-    if (const auto site = site_at(place, study.opening, scene)) {
-      study.sites.push_back(*site);
-    } else {
-      study.without_room.push_back(place.number);
-    }
-  }
+  HoodSites found = sites_at(run.places, options.places, study.opening, scene);
+  study.sites = std::move(found.sites);
+  study.without_room = std::move(found.without_room);
+  study.shared = std::move(found.shared);
   if (study.sites.empty()) {
     refuse((folder / "summary.json").string() + ":1",
            "at none of its " + std::to_string(run.places.size()) +

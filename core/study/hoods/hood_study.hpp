@@ -46,10 +46,11 @@ struct HoodStudy {
   std::string text;
   std::vector<HoodSite> sites;
   std::vector<HoodFlow> flows;
-  std::vector<int> without_room;  ///< numbers of places where no hood fits
-  double opening = 0.0;           ///< [m]
-  double duration = 0.0;          ///< [s] of each point
-  std::size_t replicates = 1;     ///< of each point
+  std::vector<int> without_room;   ///< numbers of places where no hood fits
+  std::vector<SharedSite> shared;  ///< places whose site a deeper one has taken
+  double opening = 0.0;            ///< [m]
+  double duration = 0.0;           ///< [s] of each point
+  std::size_t replicates = 1;      ///< of each point
   [[nodiscard]] std::size_t points() const {
     return replicates * (1 + sites.size() * flows.size());
   }

@@ -11,14 +11,26 @@ namespace {
 
 using Row = std::array<std::string, 5>;
 
-std::string flow_text(double flow) {
-  // From here on three digits of l/min would be written with a power of ten.
-  constexpr double k_large = 0.9995 / 60.0;  // m3/s
-  if (flow < k_large) return base::digits_text(6e4 * flow, 3) + " l/min";
-  const double per_hour = 3600.0 * flow;
-  return (per_hour < 100.0 ? base::digits_text(per_hour, 3) : base::fixed_text(per_hour, 0)) +
-         " m3/h";
-}
+/// Flows of one table, all in the unit that suits the largest.
+class FlowUnit {
+ public:
+  explicit FlowUnit(const HoodResults& results) {
+    // From here on three digits of l/min would be written with a power of ten.
+    constexpr double k_large = 0.9995 / 60.0;  // m3/s
+    for (const HoodPlace& place : results.places) {
+      for (const HoodTrial& trial : place.trials) is_large_ = is_large_ || trial.flow >= k_large;
+    }
+  }
+  [[nodiscard]] std::string text(double flow) const {
+    if (!is_large_) return base::digits_text(6e4 * flow, 3) + " l/min";
+    const double per_hour = 3600.0 * flow;
+    return (per_hour < 100.0 ? base::digits_text(per_hour, 3) : base::fixed_text(per_hour, 0)) +
+           " m3/h";
+  }
+
+ private:
+  bool is_large_ = false;
+};
 
 /// "0.12 ± 0.03", both to the second digit of the error.
 std::string estimate_text(const Uncertain& estimate, double factor) {
@@ -67,10 +79,10 @@ std::string aligned(const std::vector<Row>& rows) {
   return text;
 }
 
-std::string needed_text(const HoodPlace& place, double wanted) {
+std::string needed_text(const HoodPlace& place, double wanted, const FlowUnit& unit) {
   const auto needed = needed_flow(place, wanted);
-  if (needed && needed->is_bound) return place.name + ": " + flow_text(needed->flow) + " or less";
-  if (needed) return place.name + ": " + flow_text(needed->flow);
+  if (needed && needed->is_bound) return place.name + ": " + unit.text(needed->flow) + " or less";
+  if (needed) return place.name + ": " + unit.text(needed->flow);
   const HoodTrial* best = nullptr;
   for (const HoodTrial& trial : place.trials) {
     const auto capture = trial.capture();
@@ -78,13 +90,14 @@ std::string needed_text(const HoodPlace& place, double wanted) {
   }
   if (best == nullptr) return place.name + ": no dust was seen";
   return place.name + ": not reached (at most " + capture_text(*best) + ", at " +
-         flow_text(best->flow) + ")";
+         unit.text(best->flow) + ")";
 }
 
 }  // namespace
 
 std::string hood_table(const HoodResults& results, double wanted) {
   const HoodScale scale(results);
+  const FlowUnit unit(results);
   std::vector<Row> rows = {{"place", "flow", "drawn out [" + scale.unit() + "]",
                             "escapes [" + scale.unit() + "]", "capture"}};
   if (results.plain) {
@@ -96,13 +109,14 @@ std::string hood_table(const HoodResults& results, double wanted) {
   for (const HoodPlace& place : results.places) {
     for (const HoodTrial& trial : place.trials) {
       const double factor = scale.factor(trial);
-      rows.push_back({place.name, flow_text(trial.flow), estimate_text(trial.drawn, factor),
+      rows.push_back({place.name, unit.text(trial.flow), estimate_text(trial.drawn, factor),
                       estimate_text(trial.escaping, factor), capture_text(trial)});
     }
   }
   std::string text = aligned(rows) + "\nSmallest flow that captures " +
                      base::digits_text(100.0 * wanted, 4) + " % of the dust:\n";
-  for (const HoodPlace& place : results.places) text += "  " + needed_text(place, wanted) + '\n';
+  for (const HoodPlace& place : results.places)
+    text += "  " + needed_text(place, wanted, unit) + '\n';
   return text;
 }
 

@@ -120,3 +120,38 @@ TEST_CASE("a plant with meshes shall be checked within seconds, its sheets besid
     CHECK(mesh["notes"][0].get<std::string>().find("open edges") != std::string::npos);
   }
 }
+
+TEST_CASE("a run shall refuse an opening that meets no fluid with the line of its suction") {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "hood.yaml";
+  // The cover moves: what it covers later only the run finds out.
+  std::ofstream(file)
+      << "name: hood\n"
+         "time: {end: 2 ms, fluid_step: 1 ms, output_every: 2 ms}\n"
+         "gravity: [0, 0, -9.81]\n"
+         "domain:\n"
+         "  min: [0, 0, 0]\n"
+         "  max: [0.1, 0.1, 0.1]\n"
+         "  boundaries:\n"
+         "    left: {grains: open, air: {model: total_pressure}}\n"
+         "    right: {grains: open, air: {model: total_pressure}}\n"
+         "    front: {grains: open, air: {model: total_pressure}}\n"
+         "    back: {grains: open, air: {model: total_pressure}}\n"
+         "    bottom: {grains: open, air: {model: total_pressure}}\n"
+         "    top: {grains: open, air: {model: total_pressure}}\n"
+         "materials:\n"
+         "  steel: {density: 7800, young_modulus: 50 MPa, poisson_ratio: 0.3}\n"
+         "bodies:\n"
+         "  hood: {shape: box, material: steel, min: [0.03, 0.03, 0.06], max: [0.07, 0.07, 0.08],\n"
+         "    suction: {flow: -60 l/min, min: [0.04, 0.04, 0.06], max: [0.06, 0.06, 0.06]}}\n"
+         "  cover: {shape: box, material: steel, min: [0.03, 0.03, 0.03], max: [0.07, 0.07, "
+         "0.06],\n"
+         "    motion: translate, velocity: [0, 0, -1 mm/s]}\n"
+         "fluid: {cells: [10, 10, 10], density: 1.2, viscosity: 18 uPa s}\n";
+  CHECK(text_of(file).find("hood: box of steel, at rest, blows 3.6 m3/h") != std::string::npos);
+  const auto outcome = engine({"run", file.string(), "-o", (folder / "out").string(), "--quiet"});
+  CHECK(outcome.status == 2);
+  CHECK(outcome.err.find("hood.yaml:18:5: error: bodies.hood.suction: no part of the body's "
+                         "surface between min and max meets the fluid") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "out"));
+}

@@ -115,6 +115,26 @@ TEST_CASE("a suction whose box holds no part of its body shall be refused with f
   }
 }
 
+TEST_CASE("an opening that another body covers shall be refused, with that body and the line") {
+  const auto message_of = [](const std::string& cover) {
+    const Folder folder;
+    try {
+      static_cast<void>(preflight::read_scenario(
+          folder.write("hood.yaml", k_text),
+          {{"bodies.cover", "{shape: box, material: steel, " + cover + "}"}}, shipped()));
+    } catch (const base::UserError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const std::string whole = message_of("min: [0.2, 0, 0.6 m], max: [0.8, 0.2, 0.7 m]");
+  CHECK(whole.find("hood.yaml:25:5: error: bodies.hood.suction: 'cover' covers the opening") !=
+        std::string::npos);
+  // A third of it is free; or it is a cell before it.
+  CHECK(message_of("min: [0.2, 0, 0.6 m], max: [0.6, 0.2, 0.7 m]").empty());
+  CHECK(message_of("min: [0.2, 0, 0.55 m], max: [0.8, 0.2, 0.6 m]").empty());
+}
+
 TEST_CASE("an opening that lies over an emitter shall be told, with file and line") {
   CHECK_FALSE(has(warnings({}), "lies over it"));
   // Half of the feed's width below the hood's opening, 4 mm from it: a radius is 5 mm.

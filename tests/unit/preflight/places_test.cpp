@@ -246,3 +246,116 @@ TEST_CASE("a sensor that looks outside the domain shall be refused") {
                 {"sensors.plane.point: the plane through it does not meet the box"}) == "");
   CHECK(said({{"sensors.box.max", "[500, 50, 50 mm]"}}).errors == std::vector<std::string>{});
 }
+
+TEST_CASE("a lone point outside the domain shall be refused") {
+  const auto load = [](const std::string& point) {
+    return std::vector<scenario::Override>{
+        {"sensors.load", "{model: belt_load, point: " + point +
+                             ", direction: [1, 0, 0], length: 20 mm, width: 20 mm, height: 20 mm, "
+                             "belt_speed: 1 m/s}"}};
+  };
+  CHECK(said(load("[20, 25, 30 mm]")).errors == std::vector<std::string>{});
+  CHECK(problem(load("[20, 25, 30]"), {"sensors.load.point: (20, 25, 30) m lies outside the domain",
+                                       "nothing is seen there"}) == "");
+}
+
+TEST_CASE("a trajectory along gravity shall be refused before the run") {
+  const auto stream = [](const std::string& along) {
+    return scenario::Override{
+        "sensors.stream", "{model: trajectory, from: [20, 25, 150 mm], drops: [50 mm], along: " +
+                              along + ", steady_after: 90 ms}"};
+  };
+  CHECK(said({stream("[1, 0, 1]")}).errors == std::vector<std::string>{});
+  CHECK(problem({stream("[0, 0, 1]")}, {"shelf.yaml", "sensors.stream.along: lies along gravity",
+                                        "give the way that the belt runs"}) == "");
+  CHECK(problem({stream("[1, 0, 0]"), {"gravity", "[0, 0, 0]"}},
+                {"sensors.stream: needs gravity"}) == "");
+}
+
+TEST_CASE("a mesh smaller than a grain or a cell shall be asked for its unit") {
+  const Folder folder;
+  // A sheet of 40 x 20 of its units.
+  const auto mesh = folder.write("sheet.stl",
+                                 "solid a\n vertex 0 0 0\n vertex 40 0 0\n vertex 40 20 0\n"
+                                 " vertex 0 0 0\n vertex 40 20 0\n vertex 0 20 0\nendsolid\n");
+  const auto warned = [&](const std::string& unit, std::vector<scenario::Override> set) {
+    set.emplace_back("bodies.sheet", "{shape: mesh, material: sand, file: " + mesh.string() +
+                                         ", unit: " + unit +
+                                         ", open: allowed, moved_by: [30, 10, 80 mm]}");
+    set.emplace_back("emitters.feed.min", "[30, 10, 150 mm]");
+    const Said all = said(set);
+    REQUIRE(all.errors == std::vector<std::string>{});
+    REQUIRE(all.warnings.size() < 2);
+    return all.warnings.empty() ? std::string() : all.warnings[0];
+  };
+  CHECK(warned("1 mm", {}) == "");
+  const std::string small = warned("1 um", {});
+  CHECK(small.find("bodies.sheet: the mesh measures") != std::string::npos);
+  CHECK(small.find("less than the smallest grain (4 mm); is it drawn in metres? Then give unit: 1 "
+                   "m") != std::string::npos);
+  // 4.8 mm: more than a grain, less than a cell of 10 mm.
+  const std::vector<scenario::Override> air = {
+      {"domain.boundaries.front.air", "{model: no_slip}"},
+      {"domain.boundaries.back.air", "{model: static_pressure, pressure: 0}"},
+      {"domain.boundaries.bottom.air", "{model: no_slip}"},
+      {"domain.boundaries.top.air", "{model: static_pressure, pressure: 0}"},
+      {"drag", "{model: gidaspow}"},
+      {"voidage", "{model: centre}"},
+      {"fluid", "{cells: [10, 5, 20], density: 1.2, viscosity: 18 uPa s}"}};
+  CHECK(warned("1 mm", air) == "");
+  CHECK(warned("0.12 mm", {}) == "");
+  CHECK(warned("0.12 mm", air).find("less than a cell of the fluid (10 mm)") != std::string::npos);
+}
+
+TEST_CASE("a belt whose top runs away from its head shall be warned of") {
+  const auto warned = [](const std::string& shape, const std::string& speed) {
+    const Said all =
+        said({{"bodies.belt", "{shape: " + shape +
+                                  ", material: sand, head: [70, 25, 80 mm], tail: [30, 25, 80 mm], "
+                                  "radius: 10 mm, thickness: 2 mm, width: 30 mm, motion: belt, "
+                                  "speed: " +
+                                  speed + "}"},
+              {"domain.boundaries.left", "{grains: open}"},
+              {"domain.boundaries.right", "{grains: open}"}});
+    REQUIRE(all.errors == std::vector<std::string>{});
+    return std::any_of(all.warnings.begin(), all.warnings.end(), [](const std::string& line) {
+      return line.find(
+                 "bodies.belt: the top of the belt runs at 1 m/s away from its head pulley") !=
+             std::string::npos;
+    });
+  };
+  CHECK_FALSE(warned("belt_conveyor", "1 m/s"));
+  CHECK(warned("belt_conveyor", "-1 m/s"));
+}
+
+TEST_CASE("a stream that leaves the domain and meets nothing shall be warned of") {
+  const auto warned = [](std::vector<scenario::Override> set) {
+    set.emplace_back("bodies.shelf.min", "[-10, 30, 20 mm]");
+    set.emplace_back("emitters.feed.max", "[60, 20, 150 mm]");
+    const Said all = said(set);
+    REQUIRE(all.errors == std::vector<std::string>{});
+    return std::any_of(all.warnings.begin(), all.warnings.end(), [](const std::string& line) {
+      return line.find("emitters.feed: its grains leave the domain after at most 0.1") !=
+                 std::string::npos &&
+             line.find("meet nothing on their way") != std::string::npos;
+    });
+  };
+  CHECK_FALSE(warned({}));
+  CHECK(warned({{"domain.boundaries.bottom", "{grains: open}"}}));
+  // Dust goes where the air takes it.
+  const std::vector<scenario::Override> air = {
+      {"domain.boundaries.bottom", "{grains: open, air: {model: static_pressure, pressure: 0}}"},
+      {"domain.boundaries.front.air", "{model: no_slip}"},
+      {"domain.boundaries.back.air", "{model: no_slip}"},
+      {"domain.boundaries.top.air", "{model: static_pressure, pressure: 0}"},
+      {"drag", "{model: gidaspow}"},
+      {"voidage", "{model: centre}"},
+      {"fluid", "{cells: [10, 5, 20], density: 1.2, viscosity: 18 uPa s}"},
+      {"emitters.feed.mass_flow", "1e-9 kg/s"}};
+  CHECK(warned(air));
+  auto dust = air;
+  dust.emplace_back("emitters.feed.diameters", "[10 um]");
+  CHECK_FALSE(warned(dust));
+  // Gravity of the wrong sign.
+  CHECK(warned({{"gravity", "[0, 0, 9.81]"}, {"emitters.feed.velocity", "[0, 0, 0 m/s]"}}));
+}

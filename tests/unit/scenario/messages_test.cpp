@@ -288,6 +288,16 @@ TEST_CASE("a body that contradicts itself shall be told with a remedy") {
       "bodies.lid.radius: -1 mm is outside R > 0 m");
 }
 
+TEST_CASE("a bare angle that only degrees make sense of shall be told with them") {
+  const std::string trough =
+      "lid: {shape: belt_conveyor, material: glass, head: [-2, 0, 0 m], tail: [-3, 0, 0 m], "
+      "radius: 50 mm, thickness: 5 mm, width: 200 mm, trough_angle: ";
+  check_body(trough + "35}",
+             "bodies.lid.trough_angle: 35 is outside 0 <= beta <= 1.0471975511965976 rad: a bare "
+             "number is in rad; is '35 deg' meant?");
+  check_body(trough + "100 deg}", "bodies.lid.trough_angle: 100 deg is outside");
+}
+
 TEST_CASE("bodies that move, go or suck shall be taken in air and without, where they make sense") {
   const std::string plane =
       "lid: {shape: plane, material: glass, point: [0, 0, 0], normal: [0, 0, 1]";

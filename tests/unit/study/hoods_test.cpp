@@ -144,6 +144,43 @@ TEST_CASE("a hood shall be moved clear of bodies and the stream, or be left out"
   CHECK(with_dust.is_clear(site->body_min, site->body_max));
 }
 
+TEST_CASE("two places that are moved to one site shall have one hood, and the other be named") {
+  std::vector<char> taken(40 * 2 * 20, 0);
+  take(taken, {0, 0, 0}, {40, 2, 8});  // a bed up to z = 40 mm
+  const study::HoodScene scene(k_grid, taken, {}, {});
+  // Both are too near to the bed and moved up; the third has a site of its own.
+  const std::vector<study::LowPressurePlace> places = {
+      {1, {0.1, 5e-3, 0.0475}, 0.4}, {2, {0.1, 5e-3, 0.0525}, 0.3}, {3, {0.15, 5e-3, 0.07}, 0.2}};
+  const study::HoodSites found = study::sites_at(places, 3, 0.02, scene);
+  REQUIRE(found.sites.size() == 2);
+  CHECK(found.sites[0].place == 1);
+  CHECK(found.sites[1].place == 3);
+  REQUIRE(found.shared.size() == 1);
+  CHECK(found.shared[0].place == 2);
+  CHECK(found.shared[0].with == 1);
+  CHECK(found.without_room.empty());
+  // As many as are asked for, those left out not counted.
+  CHECK(study::sites_at(places, 1, 0.02, scene).sites.size() == 1);
+  CHECK(study::sites_at(places, 2, 0.02, scene).sites.back().place == 3);
+}
+
+TEST_CASE("all flows of a table shall have one unit, that of the largest") {
+  study::HoodResults results;
+  results.places.push_back({"place_1", {trial(20.0 / 3600.0, 1.0, 1.0)}});
+  CHECK(study::hood_table(results, 0.9).find("333 l/min") != std::string::npos);
+  results.places.push_back({"place_2", {trial(100.0 / 3600.0, 1.0, 1.0)}});
+  const std::string text = study::hood_table(results, 0.9);
+  INFO(text);
+  CHECK(text.find("20 m3/h") != std::string::npos);
+  CHECK(text.find("100 m3/h") != std::string::npos);
+  CHECK(text.find("l/min") == std::string::npos);
+  for (const double area : {2e-4, 1e-2, 1.0}) {
+    const auto flows = study::usual_flows(area);
+    const auto unit = [](const std::string& flow) { return flow.substr(flow.find(' ')); };
+    for (const study::HoodFlow& flow : flows) CHECK(unit(flow.text) == unit(flows[0].text));
+  }
+}
+
 TEST_CASE("flows shall be read with a unit that holds for all, and wrong ones be refused") {
   const auto flows = study::flows_of("120, 20, 60 l/min");
   REQUIRE(flows.size() == 3);

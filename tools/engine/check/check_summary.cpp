@@ -97,7 +97,10 @@ std::string moved_by(const scenario::BodySpec& body) {
     text += (text.empty() ? ", moved by " : ", ") + motion.name;
   if (text.empty()) text = ", at rest";
   if (body.removal) text += ", taken away later";
-  if (body.suction) text += ", sucks " + base::volume_flow_text(body.suction->flow);
+  if (body.suction) {
+    const double flow = body.suction->flow;
+    text += (flow < 0.0 ? ", blows " : ", sucks ") + base::volume_flow_text(std::abs(flow));
+  }
   return text;
 }
 

@@ -57,6 +57,10 @@ void print_sites(const study::HoodStudy& study) {
     }
     std::cout << '\n';
   }
+  for (const study::SharedSite& site : study.shared) {
+    std::cout << "place " << site.place << ": left out, its hood would stand where that of place "
+              << site.with << " does\n";
+  }
   for (const int place : study.without_room) {
     std::cout << "place " << place << ": no room for an opening of "
               << base::digits_text(1e3 * study.opening, 4)

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/places/belt_check.hpp"
+
+#include "base/text.hpp"
+#include "bodies/shape.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace dust::preflight {
+namespace {
+
+using sdk::Vec3;
+
+/// A parameter of a body's shape by its name; null without one.
+const Vec3* vector_of(const scenario::ModelChoice& shape, std::string_view name) {
+  for (const bodies::ShapeKind& kind : bodies::shape_catalogue()) {
+    if (kind.name != shape.name) continue;
+    for (std::size_t n = 0; n < kind.parameters.size() && n < shape.values.size(); ++n) {
+      if (kind.parameters[n].name == name) return std::get_if<Vec3>(&shape.values[n]);
+    }
+  }
+  return nullptr;
+}
+
+/// [m/s] of the belt's top towards its head at the end of the run.
+double speed_to_head(const scenario::Setup& setup, const bodies::Body& body, Vec3 head, Vec3 tail) {
+  const Vec3 along = (head - tail) / norm(head - tail);
+  const double length = norm(head - tail);
+  const bodies::Placement at = body.placement(setup.time.end);
+  const Vec3 middle = at.to_domain(0.5 * (head + tail));
+  const Vec3 up = -setup.gravity / norm(setup.gravity);
+  const bodies::SurfacePoint top = body.nearest(middle + length * up, at);
+  const Vec3 foot = middle + (length - top.distance) * up;
+  return dot(body.surface_velocity(foot, up, setup.time.end), at.turn(along));
+}
+
+}  // namespace
+
+void check_belts(const scenario::Setup& setup, const ParticleModels& models,
+                 scenario::Diagnostics& diagnostics) {
+  if (!(norm(setup.gravity) > 0.0)) return;
+  for (std::size_t n = 0; n < setup.bodies.size(); ++n) {
+    const scenario::BodySpec& spec = setup.bodies[n];
+    if (spec.motions.size() != 1 || spec.motions.front().name != "belt") continue;
+    const Vec3* head = vector_of(spec.shape, "head");
+    const Vec3* tail = vector_of(spec.shape, "tail");
+    if (head == nullptr || tail == nullptr) continue;
+    const double speed = speed_to_head(setup, models.bodies[n], *head, *tail);
+    if (!(speed < 0.0)) continue;
+    diagnostics.warning(spec.motions.front().where,
+                        "bodies." + spec.name + ": the top of the belt runs at " +
+                            base::digits_text(-speed, 3) +
+                            " m/s away from its head pulley; give a speed of the other sign, or "
+                            "head and tail in each other's place, unless it shall run backwards");
+  }
+}
+
+}  // namespace dust::preflight
