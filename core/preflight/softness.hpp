@@ -12,7 +12,7 @@ namespace dust::preflight {
 
 /// The softest impact of a scenario: that of the largest overlap over the radius.
 struct ImpactOverlap {
-  double ratio = 0.0;           ///< [-] overlap / smaller radius; 0 without grains or laws
+  double ratio = 0.0;           ///< [-] overlap / smaller radius; 0 without grains that move
   double diameter = 0.0;        ///< [m] of the grain, the smaller of two
   double speed = 0.0;           ///< [m/s] of the impact
   std::size_t interaction = 0;  ///< whose law it is, as Setup::interactions
