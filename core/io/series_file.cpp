@@ -150,9 +150,10 @@ void SeriesFile::append(std::span<const std::string> names_with_units,
                          " numbers for " + std::to_string(names_with_units.size()) + " columns");
   }
   std::string line;
-  for (const double value : values) {
-    if (!line.empty()) line += ',';
-    line += base::shortest_text(value);
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    if (n > 0) line += ',';
+    // What has no value, a mean of nothing, is an empty field.
+    if (!std::isnan(values[n])) line += base::shortest_text(values[n]);
   }
   impl_->write_line(line + '\n');
   ++impl_->rows;

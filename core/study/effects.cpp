@@ -365,6 +365,23 @@ std::vector<MainEffect> main_effects(const Spec& spec, const Results& results) {
   return effects;
 }
 
+std::string valueless_text(const Results& results, const std::string& output) {
+  std::map<std::string, std::size_t> by_reason;
+  for (const Outcome& outcome : results.outcomes) {
+    for (std::size_t k = 0; k < outcome.outputs.size(); ++k) {
+      const OutputValue& v = outcome.outputs[k];
+      if (results.plan.outputs[k].name != output || v.value || v.no_error.empty()) continue;
+      ++by_reason[v.no_error];
+    }
+  }
+  std::string text;
+  for (const auto& [reason, count] : by_reason) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " of " +
+            std::to_string(results.outcomes.size()) + " points without a value: " + reason;
+  }
+  return text;
+}
+
 std::string place_text(const Expectation& expectation) {
   std::string text;
   for (const HeldInput& h : expectation.at) {
@@ -434,7 +451,9 @@ Verdict assess(const Expectation& e, const Spec& spec, const Results& all) {
   const PointsAt here(e.at, all);
   const Results results{here.plan, here.outcomes};
   const auto found = effect_expected(e, spec, results);
-  verdict.text = "not enough points finished";
+  // Points that have finished may have nothing to tell.
+  const std::string valueless = valueless_text(results, e.output);
+  verdict.text = valueless.empty() ? "not enough points finished" : "open: " + valueless;
   if (!found) return verdict;
   const std::string coverage = coverage_text(found->coverage);
   if (found->coverage.used == 0) {

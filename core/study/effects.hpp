@@ -37,6 +37,10 @@ std::string coverage_text(const Coverage& coverage);
 /// "2 of 4 points not steady"; nothing where all are.
 std::string unsteady_text(const Coverage& coverage);
 
+/// "2 of 4 points without a value: nothing passed": of this output, of runs that have finished and
+/// say why; nothing where all have one.
+std::string valueless_text(const Results& results, const std::string& output);
+
 /// What one input does to one output, whatever the others are.
 struct MainEffect {
   std::size_t input = 0;          ///< column

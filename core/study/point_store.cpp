@@ -33,6 +33,7 @@ std::string one_line(std::string text) {
 }
 
 /// The figure at `path`: 0 where the run leaves it out because it is; none where it tells nothing.
+/// Its value is NaN where the run says that there is none.
 std::optional<Figure> figure_at(const std::map<std::string, Figure>& figures,
                                 const std::string& path, const std::string& zero_beside) {
   if (const auto at = figures.find(path); at != figures.end()) return at->second;
@@ -43,7 +44,10 @@ std::optional<Figure> figure_at(const std::map<std::string, Figure>& figures,
 void take_off(const std::map<std::string, Figure>& figures, const OutputColumn& column,
               OutputValue& output) {
   const auto off = figure_at(figures, column.minus, column.minus_zero_beside);
-  if (!off) output.value.reset();
+  if (!off || std::isnan(off->value)) {
+    if (off && output.value) output.no_error = off->no_error;
+    output.value.reset();
+  }
   if (!output.value) return;
   *output.value -= column.factor * off->value;
   // As if independent: quantiles of one stream are not quite.
@@ -103,7 +107,7 @@ Outcome PointStore::read(const Point& point, const std::vector<OutputColumn>& co
     for (const OutputColumn& column : columns) {
       OutputValue output;
       if (const auto at = figure_at(figures, column.quantity, column.zero_beside)) {
-        output.value = column.factor * at->value;
+        if (!std::isnan(at->value)) output.value = column.factor * at->value;
         if (at->error >= 0.0) output.error = column.factor * at->error;
         output.no_error = at->no_error;
       }

@@ -15,11 +15,12 @@ enum class Status { waiting, finished, failed };
 /// Why a figure that has not settled has no error, as summary.json says it.
 constexpr const char* k_not_steady = "not steady";
 
-/// A measured value; nothing where the run did not tell it.
+/// A measured value; nothing where the run did not tell it, or says that there is none.
 struct OutputValue {
   std::optional<double> value;
-  double error = -1.0;        ///< one standard error, negative: none
-  std::string no_error = {};  ///< why there is none: "few grains", "not steady"; "" = not said
+  double error = -1.0;  ///< one standard error, negative: none
+  /// Why there is none, or no value: "few grains", "nothing passed"; "" = not said.
+  std::string no_error = {};
 };
 
 /// What is known of a point.

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 namespace dust::study {
 namespace {
@@ -222,8 +223,13 @@ std::map<std::string, Figure> read_figures(const std::filesystem::path& summary)
   const auto take = [&](const std::string& prefix, const nlohmann::json& of) {
     for (const auto& one : of.items()) {
       const nlohmann::json& f = one.value();
-      if (!f.is_object() || !f.contains("value") || !f["value"].is_number()) continue;
-      Figure figure{f["value"].get<double>(), -1.0, f.value("unit", ""), {}};
+      if (!f.is_object() || !f.contains("value")) continue;
+      const bool is_known = f["value"].is_number();
+      if (!is_known && !f["value"].is_null()) continue;
+      Figure figure{is_known ? f["value"].get<double>() : std::numeric_limits<double>::quiet_NaN(),
+                    -1.0,
+                    f.value("unit", ""),
+                    {}};
       if (f.contains("uncertainty") && f["uncertainty"].is_number()) {
         figure.error = f["uncertainty"].get<double>();
       }

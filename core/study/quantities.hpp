@@ -40,10 +40,11 @@ std::optional<double> unit_factor(const std::string& from, const std::string& to
 
 /// A figure of a finished run.
 struct Figure {
-  double value = 0.0;
-  double error = -1.0;        ///< one standard error, negative: none
-  std::string unit;           ///< of sensors
-  std::string no_error = {};  ///< why there is no error: "few grains", "not steady"; "" = not said
+  double value = 0.0;   ///< NaN where the run says that there is none
+  double error = -1.0;  ///< one standard error, negative: none
+  std::string unit;     ///< of sensors
+  std::string no_error =
+      {};  ///< why there is no error: "few grains", "nothing passed"; "" = not said
 };
 
 /// All figures of a summary.json by dotted path. Throws base::RunError where it cannot be read.

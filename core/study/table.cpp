@@ -70,7 +70,7 @@ std::string why_no_errors(const Plan& plan, const Outcome& outcome) {
   std::string text;
   for (std::size_t k = 0; k < outcome.outputs.size(); ++k) {
     const OutputValue& v = outcome.outputs[k];
-    if (!v.value || v.error >= 0.0 || v.no_error.empty()) continue;
+    if (v.error >= 0.0 || v.no_error.empty()) continue;
     text += (text.empty() ? "" : "; ") + plan.outputs[k].name + ": " + v.no_error;
   }
   return text;
@@ -168,7 +168,8 @@ void write_points(hid_t root, const Results& results) {
   write_texts(group.get(), "status", status, "finished, failed or waiting");
   write_texts(group.get(), "hash", hash, "of the resolved scenario; the folder in points/");
   write_texts(group.get(), "reason", reason, "of a failure");
-  write_texts(group.get(), "no_error", no_error, "why an output has no standard error");
+  write_texts(group.get(), "no_error", no_error,
+              "why an output has no standard error, or no value");
   io::write_array(group.get(), "seed", H5T_NATIVE_INT64, seed.data(), {seed.size()},
                   io::Storage::plain, {"1", "seed of the random numbers"});
   io::write_array(group.get(), "replicate", H5T_NATIVE_INT64, replicate.data(), {replicate.size()},

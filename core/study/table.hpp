@@ -20,8 +20,8 @@ struct Results {
 /// "finished", "failed" or "waiting".
 const char* status_word(Status status);
 
-/// "free: not steady; rate: few grains": why outputs of a point have no standard error; "" where
-/// nothing says.
+/// "free: not steady; rate: few grains": why outputs of a point have no standard error or no value;
+/// "" where nothing says.
 std::string why_no_errors(const Plan& plan, const Outcome& outcome);
 
 /// study.csv: a row per point with inputs, replicate, outputs (sensors with their standard error),

@@ -235,7 +235,7 @@ class Run:
         if not self.is_finished():
             return []
         with open(self.folder / "series.csv") as lines:
-            return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(lines)]
+            return [{k: float(v or "nan") for k, v in row.items()} for row in csv.DictReader(lines)]
 
     def curve(self, column, scale=1.0, since=0.0):
         """(times [s], values) of a column of series.csv."""

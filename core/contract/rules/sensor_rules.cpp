@@ -44,9 +44,15 @@ double number_of(const std::string& text) {
   return static_cast<double>(sum % 1000003);
 }
 
+/// Whether it says that it has no value, for nothing has passed.
+bool is_of_nothing(const Figure& figure) {
+  return std::isnan(figure.value) && figure.uncertainty == sdk::k_nothing_passed;
+}
+
 void add(Observations& observations, const std::string& from, const Figures& figures) {
   for (const auto& [name, figure] : figures.all()) {
-    Observation r{from + name, figure.value, sdk::dimension::none};
+    // Of nothing a figure has no value; that it is so stands in the place of its error.
+    Observation r{from + name, is_of_nothing(figure) ? 0.0 : figure.value, sdk::dimension::none};
     if (!is_bare(figure.unit)) {
       const auto unit = scenario::parse_unit(figure.unit);
       r.has_dimension = unit.has_value();
@@ -234,7 +240,8 @@ bool is_met(const Maker& make) {
   return std::any_of(figures.all().begin(), figures.all().end(), [](const auto& named) {
     const auto& figure = named.second;
     // How long it looked is no find.
-    return figure.value != 0.0 && figure.role.role != sdk::Role::observed_time;
+    return figure.value != 0.0 && !is_of_nothing(figure) &&
+           figure.role.role != sdk::Role::observed_time;
   });
 }
 
@@ -273,9 +280,11 @@ void check_nothing(const Maker& make) {
   const Figures nothing = summary_of(*sensor);
   for (const auto& [name, figure] : nothing.all()) {
     if (figure.role.role == sdk::Role::observed_time) continue;  // how long it looked is no find
-    require(figure.value == 0.0, "'" + name + "' is " + shown(figure.value) +
-                                     " in an empty domain; expected: 0, where it has seen nothing "
-                                     "(Role::observed_time: how long it has looked)");
+    require(figure.value == 0.0 || is_of_nothing(figure),
+            "'" + name + "' is " + shown(figure.value) +
+                " in an empty domain; expected: 0 of an amount, a rate or a count; of a mean, a "
+                "place or a ratio no number, with k_nothing_passed for its error "
+                "(Role::observed_time: how long it has looked)");
     require(figure.uncertainty <= 0.0, "'" + name + "' has an error of " +
                                            shown(figure.uncertainty) +
                                            " in an empty domain; expected: none");
@@ -354,7 +363,8 @@ void check_thinned(const Maker& make) {
       const auto& [name, figure] = seldom.all()[c];
       const bool is_mean = thinned->row_value(name) == sdk::RowValue::mean;
       const double wanted = is_mean ? sums[c] : row.all()[c].second.value;
-      require(std::abs(figure.value - wanted) <= (is_mean ? k_rounding * sizes[c] : 0.0),
+      require(is_same(figure.value, wanted) ||
+                  std::abs(figure.value - wanted) <= (is_mean ? k_rounding * sizes[c] : 0.0),
               "'" + name + "' is " + shown(figure.value) + " in a row for every " +
                   std::to_string(k_samples_per_row) + " samples; the samples say " + shown(wanted));
     }
@@ -368,7 +378,8 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
   runner.rule("names its figures and their units", [&] { check_names(make); });
   runner.rule("says what its figures are", [&] { check_roles(make); });
   runner.rule("sees something in a stream, with errors", [&] { check_sees(make); });
-  runner.rule("gives zeros of the same names where there is nothing", [&] { check_nothing(make); });
+  runner.rule("gives zeros or no values, of the same names, where there is nothing",
+              [&] { check_nothing(make); });
   runner.rule("loses nothing between rows of series.csv", [&] { check_thinned(make); });
   runner.rule("goes on with the same bits when saved and loaded", [&] { check_restart(make); });
 }

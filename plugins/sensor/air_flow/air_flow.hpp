@@ -15,10 +15,12 @@ struct Passing {
   double forward = 0.0;   ///< [m3/s] where it goes along the axis
   double backward = 0.0;  ///< [m3/s] where it goes against it; not below 0
   double area = 0.0;      ///< [m2] open to the air
-  double lowest = 0.0;    ///< [m/s] velocity along the axis between the grains, over the open part
-  double highest = 0.0;   ///< [m/s]
+  /// [m/s] Velocity along the axis between the grains, over the open part; sdk::k_no_value where
+  /// nothing is open.
+  double lowest = sdk::k_no_value;
+  double highest = sdk::k_no_value;  ///< [m/s]
   [[nodiscard]] double net() const { return forward - backward; }
-  [[nodiscard]] double mean_velocity() const { return area > 0.0 ? net() / area : 0.0; }
+  [[nodiscard]] double mean_velocity() const { return area > 0.0 ? net() / area : sdk::k_no_value; }
 };
 
 /// [m] Length that a cell's edge [low, low + spacing] shares with [min, max].

@@ -83,23 +83,30 @@ class AngleOfRepose final : public sdk::Sensor {
 
   void observe(const sdk::WorldView& world) override {
     found_ = {};
+    has_slope_ = false;
     const double g = norm(world.gravity);
     if (g > 0.0) measure(world, world.gravity / -g);
-    values_ = {k_degrees * found_.angle, found_.line.residual,
-               static_cast<double>(found_.line.points)};
+    const auto points = static_cast<double>(found_.line.points);
+    values_ = has_slope_ ? std::vector{k_degrees * found_.angle, found_.line.residual, points}
+                         : std::vector{sdk::k_no_value, sdk::k_no_value, points};
+    if (!has_slope_) return;
     if (sdk::is_after(world, p_.steady_after)) means_.add({values_.data(), 1}, world.interval);
     curve_.add(world.time, values_[0]);
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("angle", values_[0], "deg", sdk::Quantity::angle);
+    sink.figure("angle", values_[0], "deg", sdk::error_beside(values_[0], sdk::k_no_estimate),
+                sdk::detail(sdk::Quantity::angle));
   }
   void summary(sdk::FigureSink& sink) const override {
-    sink.figure("angle", values_[0], "deg", error_, sdk::detail(sdk::Quantity::angle));
-    const double mean = means_.mean(0);
-    sink.figure("mean_angle", mean, "deg", mean > 0.0 ? means_.error(0) : -1.0,
+    sink.figure("angle", values_[0], "deg", sdk::error_beside(values_[0], error_),
                 sdk::detail(sdk::Quantity::angle));
-    sink.figure("residual", values_[1], "m", sdk::Quantity::length);
+    const double mean = means_.known_mean(0);
+    sink.figure("mean_angle", mean, "deg",
+                sdk::error_beside(mean, mean > 0.0 ? means_.error(0) : sdk::k_no_estimate),
+                sdk::detail(sdk::Quantity::angle));
+    sink.figure("residual", values_[1], "m", sdk::error_beside(values_[1], sdk::k_no_estimate),
+                sdk::detail(sdk::Quantity::length));
     sink.figure("surface_grains", values_[2], "1", sdk::Quantity::number);
   }
   void report(sdk::ReportSink& sink) const override {
@@ -165,6 +172,7 @@ class AngleOfRepose final : public sdk::Sensor {
                   {is_planar ? u : std::hypot(u, v), dot(off, up) + 0.5 * g.diameter[i], sector});
     }
     found_ = formula::repose(surface.points(), p_.from_share, p_.to_share);
+    has_slope_ = found_.line.points >= formula::k_min_points;
     // A crater rises outwards, a cone falls: a slope the other way is no such form.
     if ((p_.form == "crater" && found_.line.slope < 0.0) ||
         (p_.form == "conical" && found_.line.slope > 0.0)) {
@@ -195,9 +203,11 @@ class AngleOfRepose final : public sdk::Sensor {
   }
 
   Parameters p_;
-  formula::Repose found_;                                     ///< no state between calls
-  std::vector<double> values_ = std::vector<double>(3, 0.0);  ///< angle [deg], residual, points
-  double error_ = -1.0;                                       ///< [deg]
+  formula::Repose found_;   ///< no state between calls
+  bool has_slope_ = false;  ///< likewise: enough grains for a line
+  /// Angle [deg], residual, points.
+  std::vector<double> values_ = {sdk::k_no_value, sdk::k_no_value, 0.0};
+  double error_ = -1.0;  ///< [deg]
   std::vector<double> along_, height_, line_along_, line_height_;
   sdk::BatchMeans means_{1};
   sdk::ThinnedCurve curve_;

@@ -50,6 +50,9 @@ class FreeSurface {
   std::vector<SurfacePoint> points_;
 };
 
+/// Fewer grains have no line.
+inline constexpr std::size_t k_min_points = 3;
+
 /// height = top + slope * along.
 struct Line {
   double top = 0.0;
@@ -75,7 +78,7 @@ inline Line fit(std::span<const SurfacePoint> points, double low, double high, i
   }
   Line line;
   line.points = static_cast<std::size_t>(n);
-  if (n < 3.0) return line;
+  if (line.points < k_min_points) return line;
   double xx = 0.0;
   double xy = 0.0;
   for (const SurfacePoint& p : points) {
@@ -109,7 +112,7 @@ struct Repose {
 /// scatter of the angles of the sectors over the root of their number.
 inline Repose repose(std::span<const SurfacePoint> points, double from, double to) {
   Repose out;
-  if (points.size() < 3) return out;
+  if (points.size() < k_min_points) return out;
   double floor = points.front().height;
   double peak = floor;
   double first = points.front().along;

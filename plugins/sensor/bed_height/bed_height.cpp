@@ -57,8 +57,7 @@ class BedHeight final : public sdk::Sensor {
       masses_.push_back(g.weight[i] * g.mass[i]);
     }
     const formula::Profile profile(heights_, masses_);
-    figures_.add(world, {heights_.empty() ? 0.0 : profile.below(p_.share), 2.0 * profile.mean()},
-                 p_.steady_after);
+    figures_.add(world, {profile.below(p_.share), 2.0 * profile.mean()}, p_.steady_after);
   }
 
   void series(sdk::FigureSink& sink) const override { figures_.series(sink); }

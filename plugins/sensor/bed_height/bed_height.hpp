@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -26,10 +28,12 @@ class Profile {
       moment_ += masses[g] * heights[g];
     }
   }
-  [[nodiscard]] double mean() const { return total_ > 0.0 ? moment_ / total_ : 0.0; }
+  /// [m] sdk::k_no_value without grains, as below().
+  [[nodiscard]] double mean() const { return total_ > 0.0 ? moment_ / total_ : sdk::k_no_value; }
   /// Height [m] below which the `share` of the mass lies, to a 4096th of what the grains span; the
   /// highest grain for 1.
   [[nodiscard]] double below(double share) const {
+    if (!(total_ > 0.0)) return sdk::k_no_value;
     double sum = 0.0;
     for (std::size_t b = 0; b < k_bins; ++b) {
       if (bins_[b] > 0.0 && sum + bins_[b] >= share * total_) {

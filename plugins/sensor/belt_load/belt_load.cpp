@@ -80,7 +80,7 @@ class BeltLoad final : public sdk::Sensor {
     }
     values_ = {sums.mass / p_.length, sums.along / p_.length, formula::off_centre(sums),
                formula::half_width(sums), formula::speed(sums)};
-    curve_.add(world.time, values_[k_off_centre]);
+    if (sums.mass > 0.0) curve_.add(world.time, values_[k_off_centre]);
     if (!sdk::is_after(world, p_.steady_after)) return;
     means_.add({values_.data(), k_off_centre}, world.interval);
     // Where nothing lies there is no place and no speed: such samples do not count for them.
@@ -91,7 +91,8 @@ class BeltLoad final : public sdk::Sensor {
 
   void series(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_columns; ++c)
-      sink.figure(k_names[c], values_[c], k_units[c], -1.0, sdk::detail(k_quantities[c]));
+      sink.figure(k_names[c], values_[c], k_units[c],
+                  sdk::error_beside(values_[c], sdk::k_no_estimate), sdk::detail(k_quantities[c]));
   }
 
   void summary(sdk::FigureSink& sink) const override {
@@ -101,13 +102,15 @@ class BeltLoad final : public sdk::Sensor {
     }
     for (std::size_t c = k_off_centre; c < k_columns; ++c) {
       const std::size_t q = c - k_off_centre;
-      sink.figure(k_names[c], loaded_.mean(q), k_units[c], loaded_.error(q),
+      const double mean = loaded_.known_mean(q);
+      sink.figure(k_names[c], mean, k_units[c], sdk::error_beside(mean, loaded_.error(q)),
                   q == 0 ? sdk::overview(k_quantities[c], 3) : sdk::detail(k_quantities[c]));
     }
     if (p_.belt_speed == 0.0) return;
     const double error = loaded_.error(2);
-    sink.figure("speed_over_belt_speed", loaded_.mean(2) / p_.belt_speed, "1",
-                error < 0.0 ? -1.0 : error / std::abs(p_.belt_speed),
+    const double ratio = loaded_.known_mean(2) / p_.belt_speed;
+    sink.figure("speed_over_belt_speed", ratio, "1",
+                sdk::error_beside(ratio, error < 0.0 ? -1.0 : error / std::abs(p_.belt_speed)),
                 sdk::overview(sdk::Quantity::ratio, 4));
   }
 

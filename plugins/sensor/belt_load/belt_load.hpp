@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,17 +28,20 @@ struct Sums {
   }
 };
 
-/// [m] Centre of mass across the belt: \f$ \bar y = \sum m y / \sum m \f$; 0 for nothing.
-constexpr double off_centre(const Sums& s) { return s.mass > 0.0 ? s.aside / s.mass : 0.0; }
+/// [m] Centre of mass across the belt: \f$ \bar y = \sum m y / \sum m \f$; as of the others
+/// sdk::k_no_value for nothing.
+constexpr double off_centre(const Sums& s) {
+  return s.mass > 0.0 ? s.aside / s.mass : sdk::k_no_value;
+}
 
 /// [m] Half the width the load takes, as of an even strip: \f$ \sqrt{3 \mathrm{var}(y)} \f$.
 inline double half_width(const Sums& s) {
-  if (!(s.mass > 0.0)) return 0.0;
+  if (!(s.mass > 0.0)) return sdk::k_no_value;
   const double mean = s.aside / s.mass;
   return std::sqrt(3.0 * std::max(s.spread / s.mass - mean * mean, 0.0));
 }
 
-/// [m/s] Mean velocity along the belt, by mass; 0 for nothing.
-constexpr double speed(const Sums& s) { return s.mass > 0.0 ? s.along / s.mass : 0.0; }
+/// [m/s] Mean velocity along the belt, by mass.
+constexpr double speed(const Sums& s) { return s.mass > 0.0 ? s.along / s.mass : sdk::k_no_value; }
 
 }  // namespace dust::model::belt_load

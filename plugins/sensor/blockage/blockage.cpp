@@ -95,19 +95,23 @@ class Blockage final : public sdk::Sensor {
     sink.figure("outflow", means_.mean(2), "kg/s", means_.error(2), k_flow);
     sink.figure("growth", growth.slope, "kg/s", growth.error,
                 sdk::overview(sdk::Quantity::mass_rate, 2));
-    const double share = means_.mean(1) > 0.0 ? growth.slope / means_.mean(1) : 0.0;
+    const double share = means_.mean(1) > 0.0 ? growth.slope / means_.mean(1) : sdk::k_no_value;
     const double share_error =
         means_.mean(1) > 0.0 && growth.error >= 0.0 ? growth.error / means_.mean(1) : -1.0;
-    sink.figure("growth_over_inflow", share, "1", share_error, sdk::detail(sdk::Quantity::ratio));
-    sink.figure("growth_over_allowed", p_.largest_growth > 0.0 ? share / p_.largest_growth : 0.0,
-                "1", -1.0, sdk::detail(sdk::Quantity::ratio));
+    sink.figure("growth_over_inflow", share, "1", sdk::error_beside(share, share_error),
+                sdk::detail(sdk::Quantity::ratio));
+    const double allowed = p_.largest_growth > 0.0 ? share / p_.largest_growth : 0.0;
+    sink.figure("growth_over_allowed", allowed, "1", sdk::error_beside(allowed, sdk::k_no_estimate),
+                sdk::detail(sdk::Quantity::ratio));
     sink.figure("is_filling", is_filling(growth) ? 1.0 : 0.0, "1", -1.0,
                 sdk::detail(sdk::Quantity::number));
     sink.figure("mass_over_largest_mass", p_.largest_mass > 0.0 ? largest_ / p_.largest_mass : 0.0,
                 "1", -1.0, sdk::detail(sdk::Quantity::ratio));
     sink.figure("time_beyond_largest_mass", time_beyond_, "s", -1.0,
                 sdk::detail(sdk::Quantity::time));
-    sink.figure("first_beyond_largest_mass", first_beyond_, "s", -1.0,
+    const double first_beyond = time_beyond_ > 0.0 ? first_beyond_ : sdk::k_no_value;
+    sink.figure("first_beyond_largest_mass", first_beyond, "s",
+                sdk::error_beside(first_beyond, sdk::k_no_estimate),
                 sdk::detail(sdk::Quantity::time));
   }
 

@@ -89,8 +89,13 @@ class BoxConcentration final : public sdk::Sensor {
         error_of(values_[0] > 0.0 ? formula::moment_error(means_.deviation(0), squares_)
                                   : sdk::k_no_estimate,
                  means_.error(0, renewals_of(seen_[0])), seen_[0]);
-    sink.figure("grams_per_tonne", formula::grams_per_tonne(values_[0], emitted_mass_), "g/t",
-                error < 0.0 ? error : formula::grams_per_tonne(error, emitted_mass_),
+    const double per_load = formula::grams_per_tonne(values_[0], emitted_mass_);
+    const double per_load_error =
+        error < 0.0 ? error : formula::grams_per_tonne(error, emitted_mass_);
+    // What was there before the feed began is an amount of no load.
+    const bool is_unfed = std::isnan(per_load) && values_[0] > 0.0;
+    sink.figure("grams_per_tonne", per_load, "g/t",
+                is_unfed ? sdk::k_feed_not_even : sdk::error_beside(per_load, per_load_error),
                 role.of(sdk::Quantity::mass_per_load));
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!p_.takes(classes_[c])) continue;

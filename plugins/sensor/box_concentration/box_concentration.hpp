@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
+
 #include <cmath>
 
 namespace dust::model::box_concentration {
@@ -15,11 +17,11 @@ namespace dust::model::box_concentration {
 /// Own definition.
 inline double concentration(double weighted_mass, double volume) { return weighted_mass / volume; }
 
-/// Mass in the box per emitted mass in grams per tonne (parts per million by mass); 0 before
-/// anything was emitted.
+/// Mass in the box per emitted mass in grams per tonne (parts per million by mass);
+/// sdk::k_no_value before anything was emitted.
 inline double grams_per_tonne(double mass, double emitted_mass) {
   constexpr double k_grams_per_tonne = 1e6;
-  return emitted_mass > 0.0 ? k_grams_per_tonne * mass / emitted_mass : 0.0;
+  return emitted_mass > 0.0 ? k_grams_per_tonne * mass / emitted_mass : sdk::k_no_value;
 }
 
 /// Standard error of the mass present at one moment, taken for its mean over time.

@@ -85,7 +85,8 @@ class Bubbles final : public sdk::Sensor {
       }
     }
     values_ = {number, bed_volume_ > 0.0 ? volume / bed_volume_ : 0.0,
-               number > 0.0 ? diameters / number : 0.0, weights > 0.0 ? moved / weights : 0.0};
+               number > 0.0 ? diameters / number : sdk::k_no_value,
+               weights > 0.0 ? moved / weights : sdk::k_no_value};
     if (sdk::is_after(world, p_.steady_after)) {
       const double sums[] = {number, values_[1], diameters, weights, moved};
       means_.add(sums, world.interval);
@@ -97,20 +98,25 @@ class Bubbles final : public sdk::Sensor {
 
   void series(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) {
-      sink.figure(k_names[n], values_[n], k_units[n], k_quantities[n]);
+      sink.figure(k_names[n], values_[n], k_units[n],
+                  sdk::error_beside(values_[n], sdk::k_no_estimate), sdk::detail(k_quantities[n]));
     }
   }
   void summary(sdk::FigureSink& sink) const override {
     const auto error = [&](std::size_t n) {
       return means_.mean(n) != 0.0 ? means_.error(n) : -1.0;
     };
-    const auto ratio = [&](std::size_t above, std::size_t below) {
-      return means_.mean(below) > 0.0 ? means_.mean(above) / means_.mean(below) : 0.0;
+    // Of no bubble there is neither.
+    const auto ratio = [&](std::size_t column, std::size_t above, std::size_t below) {
+      const double value =
+          means_.mean(below) > 0.0 ? means_.mean(above) / means_.mean(below) : sdk::k_no_value;
+      sink.figure(k_names[column], value, k_units[column],
+                  sdk::error_beside(value, sdk::k_no_estimate), sdk::detail(k_quantities[column]));
     };
     sink.figure("number", means_.mean(0), "1", error(0), sdk::detail(k_quantities[0]));
     sink.figure("volume_share", means_.mean(1), "1", error(1), sdk::detail(k_quantities[1]));
-    sink.figure("diameter", ratio(2, 0), "m", k_quantities[2]);
-    sink.figure("rise_velocity", ratio(4, 3), "m/s", k_quantities[3]);
+    ratio(2, 2, 0);
+    ratio(3, 4, 3);
   }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Bubbles", "time [s]", "share of the box [1]", "bubbles", curve_.x(), curve_.y());
@@ -265,7 +271,7 @@ class Bubbles final : public sdk::Sensor {
   formula::Cells box_;
   std::vector<std::int64_t> was_;  ///< regions at the last sample
   std::vector<Bubble> last_;
-  std::vector<double> values_ = std::vector<double>(k_columns, 0.0);
+  std::vector<double> values_ = {0.0, 0.0, sdk::k_no_value, sdk::k_no_value};
   sdk::BatchMeans means_{5};
   sdk::ThinnedCurve curve_;
 };

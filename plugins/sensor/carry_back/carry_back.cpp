@@ -164,14 +164,18 @@ class CarryBack final : public sdk::Sensor {
                   k_roles[q].sizes(diameter, diameter));
     }
     constexpr double k_grams_per_tonne = 1e6;
-    const double per_flow =
-        emitted() > 0.0 ? k_grams_per_tonne * means_.duration() / emitted() : 0.0;
     const auto role = k_flow.of(sdk::Quantity::mass_per_load).sizes(diameter, diameter);
-    if (knows_feed() && means_.is_uneven(means_.columns() - 1, emitted_before_)) {
-      sink.figure(prefix + "grams_per_tonne", std::numeric_limits<double>::quiet_NaN(), "g/t",
-                  sdk::k_feed_not_even, role);
+    const bool is_without_feed = means_.duration() > 0.0 && !(emitted() > 0.0);
+    if (is_without_feed ||
+        (knows_feed() && means_.is_uneven(means_.columns() - 1, emitted_before_))) {
+      const bool is_nothing =
+          is_without_feed && !(emitted_before_ > 0.0) && !(means_.mean(first) > 0.0);
+      sink.figure(prefix + "grams_per_tonne", sdk::k_no_value, "g/t",
+                  is_nothing ? sdk::k_nothing_passed : sdk::k_feed_not_even, role);
       return;
     }
+    const double per_flow =
+        emitted() > 0.0 ? k_grams_per_tonne * means_.duration() / emitted() : 0.0;
     const double flow_error = error(first);
     sink.figure(prefix + "grams_per_tonne", means_.known_mean(first) * per_flow, "g/t",
                 flow_error < 0.0 ? -1.0 : flow_error * per_flow, role);

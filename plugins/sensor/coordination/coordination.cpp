@@ -57,28 +57,26 @@ class Coordination final : public sdk::Sensor {
     count.resize(chosen);
     const formula::Numbers z = formula::numbers_of(count);
     values_ = {z.mean, z.mechanical, z.rattlers,
-               chosen > 0 ? walls / static_cast<double>(chosen) : 0.0};
+               chosen > 0 ? walls / static_cast<double>(chosen) : sdk::k_no_value};
     if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
     shares_.assign(k_max + 1, 0.0);
     for (const std::int32_t n : count) {
       shares_[static_cast<std::size_t>(std::min<std::int32_t>(n, k_max))] +=
           1.0 / static_cast<double>(chosen);
     }
-    curve_.add(world.time, z.mean);
+    if (chosen > 0) curve_.add(world.time, z.mean);
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("mean", values_[0], "1", sdk::Quantity::ratio);
-    sink.figure("mechanical", values_[1], "1", sdk::Quantity::ratio);
+    figure(sink, "mean", values_[0], sdk::k_no_estimate);
+    figure(sink, "mechanical", values_[1], sdk::k_no_estimate);
   }
   void summary(sdk::FigureSink& sink) const override {
     static constexpr const char* k_names[k_columns] = {"mean", "mechanical", "rattler_share",
                                                        "wall_contacts_per_grain"};
     for (std::size_t n = 0; n < k_columns; ++n) {
-      const double mean = means_.mean(n);
-      sink.figure(k_names[n], mean, "1", mean > 0.0 ? means_.error(n) : -1.0,
-                  sdk::detail(sdk::Quantity::ratio));
-      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], "1", sdk::Quantity::ratio);
+      figure(sink, k_names[n], means_.mean(n), means_.error(n));
+      figure(sink, std::string(k_names[n]) + "_at_end", values_[n], sdk::k_no_estimate);
     }
   }
   void report(sdk::ReportSink& sink) const override {
@@ -107,10 +105,16 @@ class Coordination final : public sdk::Sensor {
   static constexpr std::size_t k_columns = 4;
   static constexpr std::int32_t k_max = 16;  ///< more contacts are counted as so many
 
+  static void figure(sdk::FigureSink& sink, const std::string& name, double value, double error) {
+    sink.figure(name, value, "1", sdk::error_beside(value, error),
+                sdk::detail(sdk::Quantity::ratio));
+  }
+
   Parameters p_;
-  std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
+  /// At the last sample.
+  std::vector<double> values_ = std::vector<double>(k_columns, sdk::k_no_value);
   std::vector<double> shares_ = std::vector<double>(k_max + 1, 0.0);
-  sdk::BatchMeans means_{k_columns};
+  sdk::KnownMeans means_{k_columns};
   sdk::ThinnedCurve curve_;
 };
 

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace dust::model::coordination {
 
-/// Means of the numbers of contacts of grains.
+/// Means of the numbers of contacts of grains; no numbers where there are no grains for them.
 struct Numbers {
-  double mean = 0.0;        ///< contacts per grain
-  double mechanical = 0.0;  ///< the same without grains that carry no load
-  double rattlers = 0.0;    ///< share of grains with fewer than two contacts
+  double mean = sdk::k_no_value;        ///< contacts per grain
+  double mechanical = sdk::k_no_value;  ///< the same without grains that carry no load
+  double rattlers = sdk::k_no_value;    ///< share of grains with fewer than two contacts
 };
 
 /// \f$ Z = \sum n_i / N \f$ and the mechanical coordination number of those that can carry a load,
@@ -32,7 +34,7 @@ inline Numbers numbers_of(std::span<const std::int32_t> contacts) {
   if (!(count > 0.0)) return out;
   out.mean = sum / count;
   const double bearing = count - none - one;
-  out.mechanical = bearing > 0.0 ? (sum - one) / bearing : 0.0;
+  if (bearing > 0.0) out.mechanical = (sum - one) / bearing;
   out.rattlers = (none + one) / count;
   return out;
 }

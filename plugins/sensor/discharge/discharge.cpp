@@ -130,17 +130,19 @@ class Discharge final : public sdk::Sensor {
     const double expected = expected_rate();
     sink.figure("mass", sums_[k_mass], "kg", -1.0, k_passage.of(sdk::Quantity::mass));
     sink.figure("number", sums_[k_number], "1", -1.0, k_passage.of(sdk::Quantity::number));
-    sink.figure("time", has_passed() ? sums_[k_last] - p_.opened_at : 0.0, "s",
-                sdk::Quantity::time);
-    sink.figure("duration", has_passed() ? sums_[k_last] - sums_[k_first] : 0.0, "s",
-                sdk::Quantity::time);
+    const double none = has_passed() ? sdk::k_no_estimate : sdk::k_nothing_passed;
+    sink.figure("time", has_passed() ? sums_[k_last] - p_.opened_at : sdk::k_no_value, "s", none,
+                sdk::detail(sdk::Quantity::time));
+    sink.figure("duration", has_passed() ? sums_[k_last] - sums_[k_first] : sdk::k_no_value, "s",
+                none, sdk::detail(sdk::Quantity::time));
     sink.figure("rate", rate.value, "kg/s", rate.error, k_passage.of(sdk::Quantity::mass_rate));
     sink.figure("number_rate", numbers.value, "1/s", numbers.error,
                 k_passage.of(sdk::Quantity::number_rate));
-    sink.figure("beverloo_rate", expected, "kg/s", sdk::Quantity::mass_rate);
-    const bool is_comparable = expected > 0.0;
-    sink.figure("rate_over_beverloo", is_comparable ? rate.value / expected : 0.0, "1",
-                is_comparable && rate.error >= 0.0 ? rate.error / expected : -1.0,
+    sink.figure("beverloo_rate", expected, "kg/s", sdk::error_beside(expected, sdk::k_no_estimate),
+                sdk::detail(sdk::Quantity::mass_rate));
+    const double ratio = expected > 0.0 ? rate.value / expected : sdk::k_no_value;
+    sink.figure("rate_over_beverloo", ratio, "1",
+                sdk::error_beside(ratio, rate.error >= 0.0 ? rate.error / expected : -1.0),
                 sdk::detail(sdk::Quantity::ratio));
   }
   void report(sdk::ReportSink& sink) const override {
@@ -185,8 +187,9 @@ class Discharge final : public sdk::Sensor {
     return is_through ? way : sdk::Passage{};
   }
   [[nodiscard]] bool has_passed() const { return sums_[k_number] > 0.0; }
+  /// [kg/s] sdk::k_no_value before anything has passed.
   [[nodiscard]] double expected_rate() const {
-    if (!has_passed() || !(sums_[k_volume] > 0.0)) return 0.0;
+    if (!has_passed() || !(sums_[k_volume] > 0.0)) return sdk::k_no_value;
     const double bulk = p_.bulk_density > 0.0 ? p_.bulk_density
                                               : k_solids_of_bulk * sums_[k_mass] / sums_[k_volume];
     const double diameter =

@@ -52,22 +52,22 @@ class KineticEnergy final : public sdk::Sensor {
     const bool is_settled = sums.number > 0.0 && sums.mean_per_grain() < p_.settled_below;
     if (is_settled && !is_settled_) settled_at_ = world.time;
     is_settled_ = is_settled;
-    curve_.add(world.time, values_[2]);
+    if (sums.number > 0.0) curve_.add(world.time, values_[2]);
   }
 
   void series(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n)
-      sink.figure(k_names[n], values_[n], k_units[n], k_quantities[n]);
+      figure(sink, k_names[n], n, values_[n], sdk::k_no_estimate);
   }
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) {
-      const double mean = means_.known_mean(n);
-      sink.figure(k_names[n], mean, k_units[n], mean > 0.0 ? means_.error(n) : -1.0,
-                  sdk::detail(k_quantities[n]));
-      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], k_units[n], k_quantities[n]);
+      figure(sink, k_names[n], n, means_.mean(n), means_.error(n));
+      figure(sink, std::string(k_names[n]) + "_at_end", n, values_[n], sdk::k_no_estimate);
     }
     sink.figure("is_settled", is_settled_ ? 1.0 : 0.0, "1", sdk::Quantity::number);
-    sink.figure("settled_at", is_settled_ ? settled_at_ : 0.0, "s", sdk::Quantity::time);
+    const double settled_at = is_settled_ ? settled_at_ : sdk::k_no_value;
+    sink.figure("settled_at", settled_at, "s", sdk::error_beside(settled_at, sdk::k_no_estimate),
+                sdk::detail(sdk::Quantity::time));
   }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Kinetic energy", "time [s]", "mean per grain [J]", "all grains", curve_.x(),
@@ -98,11 +98,18 @@ class KineticEnergy final : public sdk::Sensor {
       sdk::Quantity::energy, sdk::Quantity::energy, sdk::Quantity::energy,
       sdk::Quantity::granular_temperature};
 
+  static void figure(sdk::FigureSink& sink, const std::string& name, std::size_t column,
+                     double value, double error) {
+    sink.figure(name, value, k_units[column], sdk::error_beside(value, error),
+                sdk::detail(k_quantities[column]));
+  }
+
   Parameters p_;
-  std::vector<double> values_ = std::vector<double>(k_columns, 0.0);  ///< at the last sample
-  double settled_at_ = 0.0;                                           ///< [s]
+  /// At the last sample.
+  std::vector<double> values_ = {0.0, 0.0, sdk::k_no_value, sdk::k_no_value};
+  double settled_at_ = 0.0;  ///< [s]
   bool is_settled_ = false;
-  sdk::BatchMeans means_{k_columns};
+  sdk::KnownMeans means_{k_columns};
   sdk::ThinnedCurve curve_;
 };
 

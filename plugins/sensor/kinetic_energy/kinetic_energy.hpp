@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
+
 #include <cstddef>
 
 namespace dust::model::kinetic_energy {
@@ -32,13 +34,14 @@ struct Sums {
     for (std::size_t d = 0; d < 3; ++d) momentum[d] += other.momentum[d];
     return *this;
   }
+  /// [J] sdk::k_no_value without grains, as the temperature.
   [[nodiscard]] double mean_per_grain() const {
-    return number > 0.0 ? (translation + rotation) / number : 0.0;
+    return number > 0.0 ? (translation + rotation) / number : sdk::k_no_value;
   }
   /// Granular temperature [m2/s2]: \f$ T = \langle (\mathbf v - \bar{\mathbf v})^2 \rangle / 3 \f$,
   /// means weighted by mass (Haff, J. Fluid Mech. 134 (1983) 401).
   [[nodiscard]] double temperature() const {
-    if (!(mass > 0.0)) return 0.0;
+    if (!(mass > 0.0)) return sdk::k_no_value;
     double drift2 = 0.0;
     for (const double p : momentum) drift2 += p * p;
     const double t = (2.0 * translation - drift2 / mass) / (3.0 * mass);

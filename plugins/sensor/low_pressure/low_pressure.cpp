@@ -162,12 +162,16 @@ class LowPressure final : public sdk::Sensor {
     const std::vector<Place> places = find_places();
     sink.figure("found", static_cast<double>(places.size()), "1", sdk::Quantity::number);
     for (std::size_t n = 0; n < static_cast<std::size_t>(p_.count); ++n) {
-      const Place place = n < places.size() ? places[n] : Place{};
+      // Where there is no such place, its depth is 0 and it lies nowhere.
+      constexpr sdk::Vec3 k_nowhere{sdk::k_no_value, sdk::k_no_value, sdk::k_no_value};
+      const bool is_found = n < places.size();
+      const Place place = is_found ? places[n] : Place{.position = k_nowhere};
+      const double none = is_found ? sdk::k_no_estimate : sdk::k_nothing_passed;
       const std::string name = "place_" + std::to_string(n + 1) + "/";
       const sdk::FigureRole role{.role = sdk::Role::low_pressure, .index = static_cast<int>(n) + 1};
-      sink.figure(name + "x", place.position.x, "m", -1.0, role.of(sdk::Quantity::x));
-      sink.figure(name + "y", place.position.y, "m", -1.0, role.of(sdk::Quantity::y));
-      sink.figure(name + "z", place.position.z, "m", -1.0, role.of(sdk::Quantity::z));
+      sink.figure(name + "x", place.position.x, "m", none, role.of(sdk::Quantity::x));
+      sink.figure(name + "y", place.position.y, "m", none, role.of(sdk::Quantity::y));
+      sink.figure(name + "z", place.position.z, "m", none, role.of(sdk::Quantity::z));
       sink.figure(name + "depth", -place.pressure, "Pa", place.error,
                   role.of(sdk::Quantity::depth_of_pressure));
       sink.figure(name + "pressure_over_density", density_ > 0.0 ? place.pressure / density_ : 0.0,

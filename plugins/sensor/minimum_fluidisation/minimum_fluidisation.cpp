@@ -71,14 +71,14 @@ class MinimumFluidisation final : public sdk::Sensor {
              cells.plane_mean(axis_, p_.from[axis_], pressure) -
                  cells.plane_mean(axis_, p_.to[axis_], pressure),
              2.0 * sign * (centre(world.grains) - p_.from[axis_])};
-    if (world.grains.id.empty()) last_.height = 0.0;
     add(last_);
   }
 
   void series(sdk::FigureSink& sink) const override {
     sink.figure("superficial_velocity", last_.velocity, "m/s", sdk::Quantity::velocity);
     sink.figure("pressure_drop", last_.pressure, "Pa", sdk::Quantity::pressure);
-    sink.figure("height", last_.height, "m", sdk::Quantity::length);
+    sink.figure("height", last_.height, "m", sdk::error_beside(last_.height, sdk::k_no_estimate),
+                sdk::detail(sdk::Quantity::length));
   }
   void summary(sdk::FigureSink& sink) const override {
     const auto [rising, falling] = branches();
@@ -120,7 +120,7 @@ class MinimumFluidisation final : public sdk::Sensor {
  private:
   static constexpr std::size_t k_max_points = 2048;
 
-  /// Centre of mass of the grains along the axis [m].
+  /// Centre of mass of the grains along the axis [m]; sdk::k_no_value without grains.
   [[nodiscard]] double centre(const sdk::GrainColumns& g) const {
     const std::span<const double> place = axis_ == 0 ? g.x : axis_ == 1 ? g.y : g.z;
     double mass = 0.0;
@@ -129,7 +129,7 @@ class MinimumFluidisation final : public sdk::Sensor {
       mass += g.weight[i] * g.mass[i];
       moment += g.weight[i] * g.mass[i] * place[i];
     }
-    return mass > 0.0 ? moment / mass : 0.0;
+    return mass > 0.0 ? moment / mass : sdk::k_no_value;
   }
 
   /// Means of more and more samples as the ramp gets longer.
@@ -178,7 +178,9 @@ class MinimumFluidisation final : public sdk::Sensor {
                 sdk::detail(sdk::Quantity::velocity));
     sink.figure(name + "by_height", ramp.by_height.velocity, "m/s", ramp.by_height.error,
                 sdk::detail(sdk::Quantity::velocity));
-    sink.figure(name + "plateau", ramp.plateau, "Pa", sdk::Quantity::pressure);
+    sink.figure(name + "plateau", ramp.plateau, "Pa",
+                sdk::error_beside(ramp.plateau, sdk::k_no_estimate),
+                sdk::detail(sdk::Quantity::pressure));
   }
   static void draw(sdk::ReportSink& sink, const std::string& name,
                    const std::vector<Point>& points) {
@@ -201,7 +203,7 @@ class MinimumFluidisation final : public sdk::Sensor {
   int axis_;
   std::vector<Point> points_;
   Point sum_;
-  Point last_;
+  Point last_{0.0, 0.0, sdk::k_no_value};
   std::int64_t samples_per_point_ = 1;
   std::int64_t samples_ = 0;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -53,11 +55,11 @@ Line fit(const std::vector<Point>& points, const Value& value) {
   return line;
 }
 
-/// Where two lines cross.
+/// Where two lines cross; no number unless it is found.
 struct Crossing {
   bool is_found = false;
-  double velocity = 0.0;  ///< [m/s]
-  double error = -1.0;    ///< [m/s] one standard error
+  double velocity = sdk::k_no_value;     ///< [m/s]
+  double error = sdk::k_nothing_passed;  ///< [m/s] one standard error
 };
 
 constexpr std::size_t k_min = 5;  ///< points of a line
@@ -76,7 +78,7 @@ inline Crossing crossing(const Line& low, const Line& high) {
 struct Ramp {
   Crossing by_pressure;
   Crossing by_height;
-  double plateau = 0.0;  ///< [Pa] mean pressure drop of the fluidised bed
+  double plateau = sdk::k_no_value;  ///< [Pa] mean pressure drop of the fluidised bed
 };
 
 /// The slowest points, up to the velocity where more than a few of them have reached `pressure`: a
@@ -132,7 +134,7 @@ inline Ramp evaluate(const std::vector<Point>& points, double fixed_share, doubl
     if (p.velocity > fluid_factor * first) fluid.push_back(p);
   }
   const Line plateau = fit(fluid, pressure);
-  ramp.plateau = fluid.empty() ? 0.0 : plateau.mean;
+  if (!fluid.empty()) ramp.plateau = plateau.mean;
   // Lines that cross where nothing was measured tell of no change of state: a bed that compacts all
   // the way has two lines of height nearly in one.
   const auto seen = [&](const Crossing& c) {

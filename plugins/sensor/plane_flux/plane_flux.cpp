@@ -188,12 +188,15 @@ class PlaneFlux final : public sdk::Sensor {
   void per_load_of(const std::string& name, std::size_t rate, double counted, double error,
                    const sdk::FigureRole& role, sdk::FigureSink& sink) const {
     const double duration = means_.duration();
-    if (knows_feed() && means_.is_uneven(means_.columns() - 1, emitted_before_)) {
-      sink.figure(name, std::numeric_limits<double>::quiet_NaN(), "g/t", sdk::k_feed_not_even,
-                  role);
+    const double emitted = emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
+    const bool is_without_feed = duration > 0.0 && !(emitted > 0.0);
+    if (is_without_feed ||
+        (knows_feed() && means_.is_uneven(means_.columns() - 1, emitted_before_))) {
+      const bool is_nothing = is_without_feed && !(emitted_before_ > 0.0) && !(counted > 0.0);
+      sink.figure(name, sdk::k_no_value, "g/t",
+                  is_nothing ? sdk::k_nothing_passed : sdk::k_feed_not_even, role);
       return;
     }
-    const double emitted = emitted_before_ < 0.0 ? 0.0 : emitted_mass_ - emitted_before_;
     const double value = duration > 0.0
                              ? formula::grams_per_tonne(means_.mean(rate), duration, emitted)
                              : means_.known_mean(rate);

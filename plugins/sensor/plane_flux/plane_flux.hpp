@@ -31,14 +31,14 @@ inline double rate_error(double batch_error, double sum, double squares, double 
   return std::max(batch_error, poisson);
 }
 
-/// Mass passed per mass emitted in the same time, in grams per tonne (parts per million by mass); 0
-/// when nothing was emitted.
+/// Mass passed per mass emitted in the same time, in grams per tonne (parts per million by mass);
+/// sdk::k_no_value when nothing was emitted.
 /// @param rate      [kg/s] mean over the time
 /// @param duration  [s]
 /// @param emitted   [kg] in that time
 inline double grams_per_tonne(double rate, double duration, double emitted) {
   constexpr double k_grams_per_tonne = 1e6;
-  return emitted > 0.0 ? k_grams_per_tonne * rate * duration / emitted : 0.0;
+  return emitted > 0.0 ? k_grams_per_tonne * rate * duration / emitted : sdk::k_no_value;
 }
 
 }  // namespace dust::model::plane_flux

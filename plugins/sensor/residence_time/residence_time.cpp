@@ -91,13 +91,16 @@ class ResidenceTime final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     const sdk::FigureRole time = sdk::detail(sdk::Quantity::time);
-    sink.figure("mean", times_.mean(), "s", times_.mean_error(),
-                sdk::overview(sdk::Quantity::time, 1));
-    sink.figure("standard_deviation", times_.deviation(), "s", -1.0, time);
+    const auto figure = [&](const char* name, double value, double error,
+                            const sdk::FigureRole& role) {
+      sink.figure(name, value, "s", sdk::error_beside(value, error), role);
+    };
+    figure("mean", times_.mean(), times_.mean_error(), sdk::overview(sdk::Quantity::time, 1));
+    figure("standard_deviation", times_.deviation(), sdk::k_no_estimate, time);
     constexpr std::array k_quantiles = {std::pair{"fastest_5_percent", 0.05},
                                         std::pair{"median", 0.5}, std::pair{"percent_95", 0.95}};
     for (const auto& [name, p] : k_quantiles) {
-      sink.figure(name, times_.quantile(p), "s", times_.quantile_error(p), time);
+      figure(name, times_.quantile(p), times_.quantile_error(p), time);
     }
     sink.figure("grains", times_.count(), "1", -1.0, sdk::detail(sdk::Quantity::number));
     const double mass = means_.mean(0);
@@ -105,7 +108,7 @@ class ResidenceTime final : public sdk::Sensor {
     sink.figure("mass_inside", mass, "kg", means_.error(0), stock(sdk::Quantity::mass));
     sink.figure("mass_flow_out", flow, "kg/s", means_.error(1),
                 sdk::detail(sdk::Quantity::mass_rate));
-    sink.figure("holdup_over_flow", formula::holdup_time(mass, flow), "s", -1.0, time);
+    figure("holdup_over_flow", formula::holdup_time(mass, flow), sdk::k_no_estimate, time);
     sink.figure("longest_inside", oldest_, "s", -1.0, time);
   }
 

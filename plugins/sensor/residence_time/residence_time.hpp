@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -30,11 +32,11 @@ class Distribution {
 
   [[nodiscard]] double mass() const { return mass_; }
   [[nodiscard]] double count() const { return count_; }
-  /// [s] By mass.
-  [[nodiscard]] double mean() const { return mass_ > 0.0 ? first_ / mass_ : 0.0; }
+  /// [s] By mass; sdk::k_no_value where nothing has left, as of the deviation and quantiles.
+  [[nodiscard]] double mean() const { return mass_ > 0.0 ? first_ / mass_ : sdk::k_no_value; }
   /// [s]
   [[nodiscard]] double deviation() const {
-    if (!(mass_ > 0.0)) return 0.0;
+    if (!(mass_ > 0.0)) return sdk::k_no_value;
     return std::sqrt(std::max(second_ / mass_ - mean() * mean(), 0.0));
   }
   /// Number of equal grains that scatter as these do: \f$ (\sum m)^2 / \sum m^2 \f$ (Kish 1965).
@@ -48,7 +50,7 @@ class Distribution {
   }
   /// [s] The share `p` of the mass had left after.
   [[nodiscard]] double quantile(double p) const {
-    if (!(mass_ > 0.0)) return 0.0;
+    if (!(mass_ > 0.0)) return sdk::k_no_value;
     const double wanted = std::clamp(p, 0.0, 1.0) * mass_;
     double below = 0.0;
     std::size_t last = 0;
@@ -122,8 +124,9 @@ class Distribution {
 
 /// [s] Mean residence time of a steady flow by what it holds: \f$ \bar t = M / \dot m \f$ (Little
 /// 1961, doi:10.1287/opre.9.3.383). It needs no grain to be followed: a check of the mean.
+/// sdk::k_no_value where nothing flows out.
 constexpr double holdup_time(double mass, double mass_flow) {
-  return mass_flow > 0.0 ? mass / mass_flow : 0.0;
+  return mass_flow > 0.0 ? mass / mass_flow : sdk::k_no_value;
 }
 
 }  // namespace dust::model::residence_time

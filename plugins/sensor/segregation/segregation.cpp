@@ -76,11 +76,12 @@ class Segregation final : public sdk::Sensor {
       place[is_fine] += g.weight[i] * dot(x - p_.min, p_.direction);
     }
     const bool has_both = number[0] > 0.0 && number[1] > 0.0;
-    figures_.add(
-        world,
-        {formula::lacey(cells), has_both ? place[1] / number[1] - place[0] / number[0] : 0.0,
-         has_both ? number[1] / (number[0] + number[1]) : 0.0},
-        p_.steady_after);
+    const double all = number[0] + number[1];
+    figures_.add(world,
+                 {formula::lacey(cells),
+                  has_both ? place[1] / number[1] - place[0] / number[0] : sdk::k_no_value,
+                  all > 0.0 ? number[1] / all : sdk::k_no_value},
+                 p_.steady_after);
   }
 
   void series(sdk::FigureSink& sink) const override { figures_.series(sink); }

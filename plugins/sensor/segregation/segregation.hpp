@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
+
 #include <cstddef>
 #include <span>
 
@@ -18,8 +20,8 @@ struct Cell {
 /// N \f$, that of separate grains \f$ \sigma_0^2 = p (1 - p) \f$ and that of a random mixture in K
 /// cells \f$ \sigma_r^2 = p (1 - p) (K - 1) / N \f$ (the expectation of the first formula for
 /// binomial numbers). Lacey, J. Appl. Chem. 4 (1954) 257, doi:10.1002/jctb.5010040504. It scatters
-/// round 1 where grains are mixed. 0 where it has no meaning: one kind alone, or no more grains
-/// than cells.
+/// round 1 where grains are mixed. sdk::k_no_value where it has no meaning: one kind alone, or no
+/// more grains than cells.
 inline double lacey(std::span<const Cell> cells) {
   double fine = 0.0;
   double all = 0.0;
@@ -29,7 +31,9 @@ inline double lacey(std::span<const Cell> cells) {
     all += c.all;
     filled += c.all > 0.0 ? 1.0 : 0.0;
   }
-  if (!(fine > 0.0) || !(fine < all) || !(all > filled) || !(filled > 1.0)) return 0.0;
+  if (!(fine > 0.0) || !(fine < all) || !(all > filled) || !(filled > 1.0)) {
+    return sdk::k_no_value;
+  }
   const double p = fine / all;
   double variance = 0.0;
   for (const Cell& c : cells) {

@@ -63,7 +63,7 @@ class SettlingVelocity final : public sdk::Sensor {
       velocity += m * dot(down, sdk::Vec3{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]});
     }
     if (!(mass > 0.0)) {
-      values_ = {0.0, 0.0};
+      values_ = {sdk::k_no_value, sdk::k_no_value};
       has_grains_ = false;
       return;
     }
@@ -83,21 +83,28 @@ class SettlingVelocity final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    sink.figure("velocity", values_[0], "m/s", sdk::Quantity::velocity);
-    sink.figure("height", values_[1], "m", sdk::Quantity::length);
+    figure(sink, "velocity", values_[0], "m/s", sdk::Quantity::velocity);
+    figure(sink, "height", values_[1], "m", sdk::Quantity::length);
   }
   void summary(sdk::FigureSink& sink) const override {
-    const double mean = means_.mean(0);
-    sink.figure("velocity", mean, "m/s", mean != 0.0 ? means_.error(0) : -1.0,
+    const double mean = means_.known_mean(0);
+    sink.figure("velocity", mean, "m/s",
+                sdk::error_beside(mean, mean != 0.0 ? means_.error(0) : sdk::k_no_estimate),
                 sdk::detail(sdk::Quantity::velocity));
-    sink.figure("velocity_at_end", values_[0], "m/s", sdk::Quantity::velocity);
-    sink.figure("height_at_end", values_[1], "m", sdk::Quantity::length);
-    sink.figure("largest/velocity", largest_[0], "m/s", sdk::Quantity::velocity);
-    sink.figure("largest/time", largest_[1], "s", sdk::Quantity::time);
+    figure(sink, "velocity_at_end", values_[0], "m/s", sdk::Quantity::velocity);
+    figure(sink, "height_at_end", values_[1], "m", sdk::Quantity::length);
+    const bool has_sunk = largest_[0] > 0.0;
+    figure(sink, "largest/velocity", has_sunk || has_grains_ ? largest_[0] : sdk::k_no_value, "m/s",
+           sdk::Quantity::velocity);
+    figure(sink, "largest/time", has_sunk ? largest_[1] : sdk::k_no_value, "s",
+           sdk::Quantity::time);
     for (std::size_t n = 0; n < passages_.levels().size(); ++n) {
       const std::string name = "level_" + sdk::name_of(passages_.levels()[n] * 1e3) + "_mm/";
-      sink.figure(name + "time", passages_.times()[n], "s", sdk::Quantity::time);
-      sink.figure(name + "velocity", passages_.velocities()[n], "m/s", sdk::Quantity::velocity);
+      const bool is_passed = passages_.times()[n] > 0.0;
+      figure(sink, name + "time", is_passed ? passages_.times()[n] : sdk::k_no_value, "s",
+             sdk::Quantity::time);
+      figure(sink, name + "velocity", is_passed ? passages_.velocities()[n] : sdk::k_no_value,
+             "m/s", sdk::Quantity::velocity);
     }
   }
   void report(sdk::ReportSink& sink) const override {
@@ -127,9 +134,16 @@ class SettlingVelocity final : public sdk::Sensor {
   }
 
  private:
+  static void figure(sdk::FigureSink& sink, const std::string& name, double value, const char* unit,
+                     sdk::Quantity quantity) {
+    sink.figure(name, value, unit, sdk::error_beside(value, sdk::k_no_estimate),
+                sdk::detail(quantity));
+  }
+
   Parameters p_;
   formula::Passages passages_;
-  std::vector<double> values_{0.0, 0.0};   ///< velocity [m/s] and height [m] at the last sample
+  /// Velocity [m/s] and height [m] at the last sample.
+  std::vector<double> values_{sdk::k_no_value, sdk::k_no_value};
   std::vector<double> largest_{0.0, 0.0};  ///< velocity [m/s] and when [s]
   bool has_grains_ = false;
   bool is_down_ = false;  ///< below `until`: what bounces back no longer counts

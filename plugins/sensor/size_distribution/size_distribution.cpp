@@ -48,7 +48,7 @@ class Sizes final : public sdk::Sensor {
     if (classes_.empty() && !world.class_diameters.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
       means_ = sdk::BatchMeans(k_means + 2 * classes_.size());
-      values_.assign(means_.columns(), 0.0);
+      values_.assign(means_.columns(), sdk::k_no_value);
     }
     if (classes_.empty()) return;
     std::vector<double> numbers(classes_.size(), 0.0);
@@ -65,7 +65,7 @@ class Sizes final : public sdk::Sensor {
       number += g.weight[i];
       mass += g.weight[i] * g.mass[i];
     }
-    values_.assign(means_.columns(), 0.0);
+    values_.assign(means_.columns(), sdk::k_no_value);
     if (!(number > 0.0)) return;  // nothing has no distribution: such samples do not count
     values_[0] = formula::sauter(classes_, numbers);
     for (std::size_t q = 0; q < 3; ++q) {
@@ -80,7 +80,9 @@ class Sizes final : public sdk::Sensor {
 
   void series(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_means; ++n) {
-      sink.figure(k_names[n], values_.empty() ? 0.0 : values_[n], "m", sdk::Quantity::length);
+      const double value = values_.empty() ? sdk::k_no_value : values_[n];
+      sink.figure(k_names[n], value, "m", sdk::error_beside(value, sdk::k_no_estimate),
+                  sdk::detail(sdk::Quantity::length));
     }
   }
   void summary(sdk::FigureSink& sink) const override {
@@ -96,6 +98,7 @@ class Sizes final : public sdk::Sensor {
     }
   }
   void report(sdk::ReportSink& sink) const override {
+    if (!(means_.duration() > 0.0)) return;
     const std::vector<std::string> columns = {"diameter [um]", "number [%]", "mass [%]"};
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       const double row[] = {1e6 * classes_[c], 1e2 * means_.mean(k_means + 2 * c),
@@ -122,13 +125,16 @@ class Sizes final : public sdk::Sensor {
 
   void figure(sdk::FigureSink& sink, const std::string& name, std::size_t column, const char* unit,
               const sdk::FigureRole& role) const {
-    const double mean = means_.mean(column);
-    sink.figure(name, mean, unit, mean > 0.0 ? means_.error(column) : -1.0, role);
+    const double mean = means_.known_mean(column);
+    sink.figure(name, mean, unit,
+                sdk::error_beside(mean, mean > 0.0 ? means_.error(column) : sdk::k_no_estimate),
+                role);
   }
 
   Parameters p_;
   std::vector<double> classes_;
-  std::vector<double> values_ = std::vector<double>(k_means, 0.0);  ///< at the last sample
+  std::vector<double> values_ =
+      std::vector<double>(k_means, sdk::k_no_value);  ///< at the last sample
   sdk::BatchMeans means_{k_means};
 };
 

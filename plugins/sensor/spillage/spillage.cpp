@@ -58,6 +58,10 @@ class Spillage final : public sdk::Sensor {
     if (is_steady) {
       if (duration_ == 0.0) emitted_before_ = emitted_;
       duration_ += world.interval;
+      if (world.interval > 0.0) {
+        const double fed = (world.emitted_mass - emitted_) / world.interval;
+        feed_.add({&fed, 1}, world.interval);
+      }
     }
     emitted_ = world.emitted_mass;
     if (world.interval > 0.0) {
@@ -79,12 +83,15 @@ class Spillage final : public sdk::Sensor {
     const double error = formula::error_of(squares_);
     const double emitted = duration_ > 0.0 ? emitted_ - emitted_before_ : 0.0;
     constexpr double k_grams_per_tonne = 1e6;
-    const double per_mass = emitted > 0.0 ? k_grams_per_tonne / emitted : 0.0;
+    const double reason = why_none(emitted);
+    const double per_mass = reason < 0.0 ? sdk::k_no_value : k_grams_per_tonne / emitted;
     sink.figure("rate", formula::per_hour(steady_, duration_), "kg/h",
                 error < 0.0 ? -1.0 : formula::per_hour(error, duration_),
                 sdk::overview(sdk::Quantity::mass_rate, 1));
     sink.figure("grams_per_tonne", steady_ * per_mass, "g/t",
-                error < 0.0 || per_mass == 0.0 ? -1.0 : error * per_mass,
+                reason < 0.0  ? reason
+                : error < 0.0 ? sdk::k_no_estimate
+                              : error * per_mass,
                 sdk::overview(sdk::Quantity::mass_per_load, 2));
     sink.figure("mass", mass_, "kg", -1.0, sdk::detail(sdk::Quantity::mass));
     sink.figure("grains", count_, "1", -1.0, sdk::detail(sdk::Quantity::number));
@@ -95,15 +102,24 @@ class Spillage final : public sdk::Sensor {
                               duration_, emitted_, emitted_before_};
     a.numbers("numbers", numbers);
     row_.save(a, "row");
+    feed_.save(a, "feed");
   }
   void load(sdk::ArchiveReader& a) override {
     const auto n = a.numbers("numbers");
     mass_ = n.at(0), count_ = n.at(1), steady_ = n.at(2), squares_ = n.at(3);
     duration_ = n.at(4), emitted_ = n.at(5), emitted_before_ = n.at(6);
     row_.load(a, "row");
+    feed_.load(a, "feed");
   }
 
  private:
+  /// Why there is no amount per tonne; 0 where there is one. `emitted` [kg] while steady.
+  [[nodiscard]] double why_none(double emitted) const {
+    const bool is_nothing = !(emitted > 0.0) && !(emitted_before_ > 0.0) && steady_ == 0.0;
+    if (is_nothing || !(duration_ > 0.0)) return sdk::k_nothing_passed;
+    return !(emitted > 0.0) || feed_.is_uneven(0, emitted_before_) ? sdk::k_feed_not_even : 0.0;
+  }
+
   Parameters p_;
   sdk::Rectangle level_;
   double mass_ = 0.0;            ///< [kg] since the start
@@ -114,6 +130,7 @@ class Spillage final : public sdk::Sensor {
   double emitted_ = 0.0;         ///< [kg] until the last sample
   double emitted_before_ = 0.0;  ///< [kg] until the first steady sample
   sdk::RowMeans row_{1};
+  sdk::BatchMeans feed_{1};  ///< [kg/s] emitted while steady
 };
 
 }  // namespace

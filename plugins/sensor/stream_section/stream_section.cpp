@@ -82,22 +82,23 @@ class StreamSection final : public sdk::Sensor {
   void summary(sdk::FigureSink& sink) const override {
     const Stream s = stream();
     const double normal = dot(s.velocity, rectangle_.normal());
+    const double none = sdk::error_beside(normal, sdk::k_no_estimate);
     sink.figure("mass_flow", s.mass_flow, "kg/s", means_.error(0),
                 sdk::overview(sdk::Quantity::mass_rate, 1));
-    sink.figure("velocity_x", s.velocity.x, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
-    sink.figure("velocity_y", s.velocity.y, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
-    sink.figure("velocity_z", s.velocity.z, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
-    sink.figure("speed", norm(s.velocity), "m/s", -1.0, sdk::overview(sdk::Quantity::velocity, 2));
+    sink.figure("velocity_x", s.velocity.x, "m/s", none, sdk::detail(sdk::Quantity::velocity));
+    sink.figure("velocity_y", s.velocity.y, "m/s", none, sdk::detail(sdk::Quantity::velocity));
+    sink.figure("velocity_z", s.velocity.z, "m/s", none, sdk::detail(sdk::Quantity::velocity));
+    sink.figure("speed", norm(s.velocity), "m/s", none, sdk::overview(sdk::Quantity::velocity, 2));
     sink.figure("angle", formula::angle(normal, norm(s.velocity - normal * rectangle_.normal())),
-                "rad", -1.0, sdk::overview(sdk::Quantity::angle, 3));
-    sink.figure("fill_ratio", fill_ratio(s), "1", -1.0, sdk::overview(sdk::Quantity::ratio, 4));
-    sink.figure("impact_pressure", formula::impact_pressure(p_.bulk_density, normal), "Pa", -1.0,
+                "rad", none, sdk::overview(sdk::Quantity::angle, 3));
+    sink.figure("fill_ratio", fill_ratio(s), "1", none, sdk::overview(sdk::Quantity::ratio, 4));
+    sink.figure("impact_pressure", formula::impact_pressure(p_.bulk_density, normal), "Pa", none,
                 sdk::overview(sdk::Quantity::pressure, 5));
     const double belt = norm(p_.belt_velocity);
     if (belt == 0.0) return;
     const double along = dot(s.velocity, p_.belt_velocity) / belt;
-    sink.figure("speed_along_belt", along, "m/s", -1.0, sdk::detail(sdk::Quantity::velocity));
-    sink.figure("speed_along_belt_over_belt_speed", along / belt, "1", -1.0,
+    sink.figure("speed_along_belt", along, "m/s", none, sdk::detail(sdk::Quantity::velocity));
+    sink.figure("speed_along_belt_over_belt_speed", along / belt, "1", none,
                 sdk::overview(sdk::Quantity::ratio, 6));
   }
 
@@ -114,12 +115,14 @@ class StreamSection final : public sdk::Sensor {
   static constexpr std::size_t k_columns = 4;  ///< mass flow, momentum flow
   struct Stream {
     double mass_flow = 0.0;  ///< [kg/s]
-    sdk::Vec3 velocity;      ///< [m/s] mean by mass passed
+    sdk::Vec3 velocity;      ///< [m/s] mean by mass passed; no numbers where nothing passed
   };
 
   [[nodiscard]] Stream stream() const {
     const double flow = means_.known_mean(0);
-    if (flow <= 0.0) return {};  // not known without a time: then neither is its velocity
+    // A flow of nothing has no velocity; without a time not even the flow is known.
+    constexpr sdk::Vec3 k_none{sdk::k_no_value, sdk::k_no_value, sdk::k_no_value};
+    if (!(flow > 0.0)) return {flow, k_none};
     return {flow, sdk::Vec3{means_.mean(1), means_.mean(2), means_.mean(3)} / flow};
   }
   [[nodiscard]] double fill_ratio(const Stream& s) const {

@@ -11,8 +11,9 @@ namespace dust::model::stream_section {
 /// @param bulk_density  [kg/m3] of the resting material
 /// @param speed         [m/s] mean along the normal of the opening
 /// @param area          [m2] of the opening
+/// @return no number where the speed is none; 0 of a stream that does not go through
 constexpr double fill_ratio(double mass_flow, double bulk_density, double speed, double area) {
-  return speed > 0.0 ? mass_flow / (bulk_density * speed * area) : 0.0;
+  return speed <= 0.0 ? 0.0 : mass_flow / (bulk_density * speed * area);
 }
 
 /// [Pa] Mean pressure of a stream of bulk density that gives up its velocity along the normal:

@@ -118,8 +118,10 @@ class Trajectory final : public sdk::Sensor {
   void series(sdk::FigureSink& sink) const override {
     for (std::size_t d = 0; d < levels_.size(); ++d) {
       const Crossings& level = levels_[d];
-      const double mean = level.weight_sum > 0.0 ? level.moment / level.weight_sum : 0.0;
-      sink.figure(drop_name(d) + "/mean", mean, "m", sdk::Quantity::length);
+      const double mean =
+          level.weight_sum > 0.0 ? level.moment / level.weight_sum : sdk::k_no_value;
+      sink.figure(drop_name(d) + "/mean", mean, "m", sdk::error_beside(mean, sdk::k_no_estimate),
+                  sdk::detail(sdk::Quantity::length));
       sink.figure(drop_name(d) + "/number", level.weight_sum, "1", sdk::Quantity::number);
     }
   }
@@ -159,12 +161,13 @@ class Trajectory final : public sdk::Sensor {
   }
 
   void report(sdk::ReportSink& sink) const override {
-    std::vector<double> depth;
-    for (const double drop : p_.drops) depth.push_back(-drop);
     for (const auto& [p, quantile] : k_quantiles) {
       std::vector<double> places;
-      for (const Crossings& level : levels_) {
-        places.push_back(formula::quantile(sample_of(level, level.place, -1), p));
+      std::vector<double> depth;
+      for (std::size_t d = 0; d < levels_.size(); ++d) {
+        if (levels_[d].place.empty()) continue;
+        places.push_back(formula::quantile(sample_of(levels_[d], levels_[d].place, -1), p));
+        depth.push_back(-p_.drops[d]);
       }
       sink.curve("Trajectory of the stream", "distance from A [m]", "height above A [m]", quantile,
                  places, depth);
@@ -292,8 +295,9 @@ class Trajectory final : public sdk::Sensor {
   };
   static void figure(sdk::FigureSink& sink, const std::string& name,
                      const formula::SortedSample& sample, double p, const QuantileKind& kind) {
-    sink.figure(name, formula::quantile(sample, p), kind.unit,
-                formula::quantile_error(sample, p, kind.blocks), kind.role);
+    const double value = formula::quantile(sample, p);
+    const double error = formula::quantile_error(sample, p, kind.blocks);
+    sink.figure(name, value, kind.unit, sdk::error_beside(value, error), kind.role);
   }
   static sdk::FigureRole at(sdk::FigureRole role, double probability) {
     role.probability = probability;

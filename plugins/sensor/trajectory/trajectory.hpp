@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -40,10 +42,10 @@ inline SortedSample sorted(std::span<const double> values, std::span<const doubl
 ///
 /// Value i stands at the share \f$ (W_i - w_i/2)/W \f$ with the running sum \f$ W_i \f$ and the
 /// total \f$ W \f$ (Hazen's plotting position with weights); linear in between, the outermost
-/// values beyond. @return in the unit of the values; 0 for an empty sample.
+/// values beyond. @return in the unit of the values; sdk::k_no_value for an empty sample.
 /// Source: Hyndman and Fan (1996), definition 5, doi:10.1080/00031305.1996.10473566.
 inline double quantile(const SortedSample& s, double p) {
-  if (s.value.empty()) return 0.0;
+  if (s.value.empty()) return sdk::k_no_value;
   const double wanted = p * s.total_weight;
   double below = 0.0;
   double share_before = 0.0;

@@ -89,9 +89,15 @@ class Vorticity final : public sdk::Sensor {
       sink.figure(k_names[n], mean, "1/s", mean != 0.0 ? means_.error(n) : -1.0,
                   sdk::detail(sdk::Quantity::vorticity));
     }
-    sink.figure("fastest/x", place_.x, "m", sdk::Quantity::x);
-    sink.figure("fastest/y", place_.y, "m", sdk::Quantity::y);
-    sink.figure("fastest/z", place_.z, "m", sdk::Quantity::z);
+    // Where nothing turns there is no place that turns fastest.
+    const auto place = [&](const char* name, double value, sdk::Quantity quantity) {
+      sink.figure(name, fastest_ > 0.0 ? value : sdk::k_no_value, "m",
+                  fastest_ > 0.0 ? sdk::k_no_estimate : sdk::k_nothing_passed,
+                  sdk::detail(quantity));
+    };
+    place("fastest/x", place_.x, sdk::Quantity::x);
+    place("fastest/y", place_.y, sdk::Quantity::y);
+    place("fastest/z", place_.z, sdk::Quantity::z);
     sink.figure("fastest/vorticity", fastest_, "1/s", sdk::Quantity::vorticity);
   }
   void report(sdk::ReportSink& sink) const override {

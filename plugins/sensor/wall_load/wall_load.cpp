@@ -134,7 +134,9 @@ class WallLoad final : public sdk::Sensor {
     sink.figure("impact_energy_normal", impact_energy_[0], "J", sdk::Quantity::energy);
     sink.figure("impact_energy_tangential", impact_energy_[1], "J", sdk::Quantity::energy);
     sink.figure("impact_energy_largest", largest_, "J", sdk::Quantity::energy);
-    sink.figure("impact_energy_normal_median", bins_.median(normal_), "J", sdk::Quantity::energy);
+    const double median = bins_.median(normal_);
+    sink.figure("impact_energy_normal_median", median, "J",
+                sdk::error_beside(median, sdk::k_no_estimate), sdk::detail(sdk::Quantity::energy));
     const double time = means_.duration();
     sink.figure("impact_rate", time > 0.0 ? impacts_ / time : 0.0, "1/s",
                 time > 0.0 && impacts_ > 0.0 ? std::sqrt(impacts_) / time : -1.0,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sensor.hpp>
 #include <dust/sdk/vec3.hpp>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ struct Bins {
     return least *
            std::pow(largest / least, (static_cast<double>(bin) + 0.5) / static_cast<double>(count));
   }
-  /// [J] Middle of the bin that holds the median of counts; 0 without counts.
+  /// [J] Middle of the bin that holds the median of counts; sdk::k_no_value without counts.
   [[nodiscard]] double median(std::span<const double> counts) const {
     double total = 0.0;
     for (const double c : counts) total += c;
@@ -41,7 +42,7 @@ struct Bins {
       sum += counts[b];
       if (total > 0.0 && sum >= 0.5 * total) return middle(b);
     }
-    return 0.0;
+    return sdk::k_no_value;
   }
 };
 

@@ -69,7 +69,8 @@ class WallShear final : public sdk::Sensor {
     force[e] = area * cells.layer(d, layer, [&](std::size_t c) { return stress(e, c); }).sum;
     force[g] = area * cells.layer(d, layer, [&](std::size_t c) { return stress(g, c); }).sum;
     figures_.add(world,
-                 {mean.open > 0.0 ? mean.sum / mean.open : 0.0, largest, force.x, force.y, force.z},
+                 {mean.open > 0.0 ? mean.sum / mean.open : sdk::k_no_value, largest, force.x,
+                  force.y, force.z},
                  p_.steady_after);
   }
 

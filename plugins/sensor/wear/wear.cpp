@@ -177,7 +177,7 @@ class Wear final : public sdk::Sensor {
     force_[cell] += g.weight[i] * normal * world.interval;
   }
 
-  /// The largest of all places and where it is.
+  /// The largest of all places and where it is; nowhere where nothing wears.
   void largest(const std::string& name, const char* unit, sdk::Quantity quantity,
                const std::vector<double>& sums, double factor, sdk::FigureSink& sink) const {
     const auto most = std::max_element(sums.begin(), sums.end());
@@ -189,8 +189,9 @@ class Wear final : public sdk::Sensor {
       const auto count = static_cast<std::size_t>(grid_.count[d]);
       const double middle = p_.min[d] + (static_cast<double>(index % count) + 0.5) * p_.cell;
       index /= count;
-      sink.figure(name + "_largest/" + "xyz"[d], *most > 0.0 ? middle : 0.0, "m", -1.0,
-                  sdk::detail(k_places[d]));
+      const double place = *most > 0.0 ? middle : sdk::k_no_value;
+      sink.figure(name + "_largest/" + "xyz"[d], place, "m",
+                  sdk::error_beside(place, sdk::k_no_estimate), sdk::detail(k_places[d]));
     }
   }
 

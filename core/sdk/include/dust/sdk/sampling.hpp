@@ -263,9 +263,11 @@ class BatchMeans {
   }
   /// Whether means cannot be told per amount of a column that counts what is fed: the feed begins,
   /// ends or changes while they are taken. A batch is no feed: all of it has come since the means
-  /// began, and no more of it comes. `before`: what had been fed by then, in the column's unit.
+  /// began, and no more of it comes. What was fed before the means began, and none while they are
+  /// taken, is a feed that has ended. `before`: what had been fed by then, in the column's unit.
   [[nodiscard]] bool is_uneven(std::size_t column, double before) const {
-    if (mean(column) == 0.0 || is_even(column)) return false;
+    if (mean(column) == 0.0) return before > 0.0;
+    if (is_even(column)) return false;
     return before > 0.0 || !has_ended(column);
   }
   /// How far a single batch lies from the mean of all, one standard deviation; k_no_estimate below
@@ -487,6 +489,41 @@ class ThinnedCurve {
   std::int64_t samples_ = 0;
 };
 
+/// Time means of columns of which a sample may have no value (NaN): a mean size of no grains. Such
+/// samples do not count for their column; else each is as in BatchMeans.
+class KnownMeans {
+ public:
+  explicit KnownMeans(std::size_t columns) : means_(columns, BatchMeans(1)) {}
+
+  /// One sample: `values` held for `duration` [s].
+  void add(std::span<const double> values, double duration) {
+    for (std::size_t c = 0; c < means_.size(); ++c) {
+      if (!std::isnan(values[c])) means_[c].add(values.subspan(c, 1), duration);
+    }
+  }
+  /// k_no_value without a sample.
+  [[nodiscard]] double mean(std::size_t column) const { return means_[column].known_mean(0); }
+  /// k_nothing_passed without a sample, k_no_estimate of a mean that is 0.
+  [[nodiscard]] double error(std::size_t column) const {
+    const double value = mean(column);
+    return error_beside(value, value != 0.0 ? means_[column].error(0) : k_no_estimate);
+  }
+
+  void save(ArchiveWriter& archive, const std::string& name) const {
+    for (std::size_t c = 0; c < means_.size(); ++c) {
+      means_[c].save(archive, name + "_" + std::to_string(c));
+    }
+  }
+  void load(ArchiveReader& archive, const std::string& name) {
+    for (std::size_t c = 0; c < means_.size(); ++c) {
+      means_[c].load(archive, name + "_" + std::to_string(c));
+    }
+  }
+
+ private:
+  std::vector<BatchMeans> means_;
+};
+
 /// The state of a sensor whose figures are those of a moment: the last ones for series.csv, their
 /// means with errors for the summary, the first one against time for the report.
 class SampledFigures {
@@ -497,26 +534,30 @@ class SampledFigures {
     Quantity quantity = Quantity::unspecified;
   };
   explicit SampledFigures(std::vector<Column> columns)
-      : columns_(std::move(columns)), values_(columns_.size(), 0.0), means_(columns_.size()) {}
+      : columns_(std::move(columns)),
+        values_(columns_.size(), k_no_value),
+        means_(columns_.size()) {}
 
-  /// One look: a value per column; the means begin after `steady_after` [s].
+  /// One look: a value per column, k_no_value where there is none; the means begin after
+  /// `steady_after` [s].
   void add(const WorldView& world, std::vector<double> values, double steady_after) {
     values_ = std::move(values);
     if (is_after(world, steady_after)) means_.add(values_, world.interval);
-    curve_.add(world.time, values_[0]);
+    if (!std::isnan(values_[0])) curve_.add(world.time, values_[0]);
   }
   void series(FigureSink& sink) const {
     for (std::size_t n = 0; n < columns_.size(); ++n) {
       const auto& [name, unit, quantity] = columns_[n];
-      sink.figure(name, values_[n], unit, -1.0, detail(quantity));
+      sink.figure(name, values_[n], unit, error_beside(values_[n], k_no_estimate),
+                  detail(quantity));
     }
   }
   void summary(FigureSink& sink) const {
     for (std::size_t n = 0; n < columns_.size(); ++n) {
-      const double mean = means_.mean(n);
       const auto& [name, unit, quantity] = columns_[n];
-      sink.figure(name, mean, unit, mean != 0.0 ? means_.error(n) : -1.0, detail(quantity));
-      sink.figure(std::string(name) + "_at_end", values_[n], unit, -1.0, detail(quantity));
+      sink.figure(name, means_.mean(n), unit, means_.error(n), detail(quantity));
+      sink.figure(std::string(name) + "_at_end", values_[n], unit,
+                  error_beside(values_[n], k_no_estimate), detail(quantity));
     }
   }
   [[nodiscard]] const ThinnedCurve& curve() const { return curve_; }
@@ -535,7 +576,7 @@ class SampledFigures {
  private:
   std::vector<Column> columns_;
   std::vector<double> values_;  ///< at the last look
-  BatchMeans means_;
+  KnownMeans means_;
   ThinnedCurve curve_;
 };
 

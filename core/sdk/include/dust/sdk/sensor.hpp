@@ -6,8 +6,10 @@
 #include "dust/sdk/model.hpp"
 #include "dust/sdk/vec3.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -110,21 +112,33 @@ inline constexpr double k_not_steady = -3.0;   ///< it has not settled in the ti
 /// An amount per load: the feed begins, ends or changes in the time observed, and no value is
 /// given.
 inline constexpr double k_feed_not_even = -4.0;
+/// A mean, a quantile, a place or a ratio of nothing: no grain has passed or lies there, and no
+/// value is given. Amounts, rates and counts of nothing are 0.
+inline constexpr double k_nothing_passed = -5.0;
+
+/// The value of such a figure.
+inline constexpr double k_no_value = std::numeric_limits<double>::quiet_NaN();
+
+/// What stands beside `value` for its error: k_nothing_passed where it has no value.
+inline double error_beside(double value, double error) {
+  return std::isnan(value) ? k_nothing_passed : error;
+}
 
 /// Fewer independent grains tell no error.
 inline constexpr double k_min_grains = 20.0;
 
-/// The reason as files give it: "few grains", "not steady", "feed not even", "" for none in
-/// particular.
+/// The reason as files give it: "few grains", "not steady", "feed not even", "nothing passed", ""
+/// for none in particular.
 constexpr std::string_view reason_without_error(double uncertainty) {
   if (uncertainty == k_few_grains) return "few grains";
   if (uncertainty == k_feed_not_even) return "feed not even";
+  if (uncertainty == k_nothing_passed) return "nothing passed";
   return uncertainty == k_not_steady ? "not steady" : "";
 }
 
 /// Takes the figures of a sensor. `uncertainty` is one standard error in the same unit; a negative
 /// number means that there is none (k_no_estimate, k_few_grains, k_not_steady,
-/// k_feed_not_even).
+/// k_feed_not_even, k_nothing_passed).
 class FigureSink {
  public:
   virtual ~FigureSink() = default;
