@@ -5,6 +5,7 @@
 #include "contract/scenes/synthetic_scene.hpp"
 #include "dust/sdk/plugin.hpp"
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -37,5 +38,10 @@ struct SensorKind {
       const std::map<std::string, sdk::Value>& parameters) const;
 };
 SensorKind load_sensor(const std::string& name);
+
+/// Whether a figure says that it has no value, for nothing has passed.
+inline bool is_of_nothing(const Figure& figure) {
+  return std::isnan(figure.value) && figure.uncertainty == sdk::k_nothing_passed;
+}
 
 }  // namespace dust::test

@@ -470,7 +470,8 @@ TEST_CASE("a sensor that is wrong shall be told by the rule it breaks") {
   CHECK(seen.broken(results, "names") ==
         "'Looks' is not a path of snake_case words: a to z, 0 to 9, _ and /");
   CHECK(seen.broken(results, "zeros") ==
-        "'looks' is 90 in an empty domain; expected: 0, where it has seen nothing "
+        "'looks' is 90 in an empty domain; expected: 0 of an amount, a rate or a count; of a mean, "
+        "a place or a ratio no number, with k_nothing_passed for its error "
         "(Role::observed_time: how long it has looked)");
   CHECK(seen.broken(results, "saved and loaded").find("after 1 samples 'looks' differs") !=
         std::string::npos);

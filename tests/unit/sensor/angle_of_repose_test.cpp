@@ -65,6 +65,11 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a place without a heap shall have no angle") {
+  const auto f = measured(SyntheticScene{}, {{"centre", k_centre}});
+  CHECK(is_of_nothing(f));
+}
+
 TEST_CASE("a rounded tip and a spread foot shall not count") {
   const auto heap = bed([&](double x, double y) {
     const double line = 30e-3 - std::tan(33 * k_degree) * radius(x, y);

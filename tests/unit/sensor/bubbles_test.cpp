@@ -72,7 +72,8 @@ TEST_CASE("bubbles shall leave out the space over the bed, and those too small")
   const auto large = sensor({{"smallest", 0.014}});
   step(*large, world);
   CHECK(series_of(*large)["number"] == test::approx(0.0));
-  CHECK(series_of(*large)["diameter"] == test::approx(0.0));
+  CHECK(is_of_nothing(series_of(*large).at("diameter")));
+  CHECK(is_of_nothing(summary_of(*large).at("diameter")));
   // Downwards, the bottom is the open end: the bubble in the bed and the space above both count.
   const auto down = sensor({{"direction", Vec3{0, 0, -1}}});
   step(*down, world);
@@ -87,7 +88,7 @@ TEST_CASE("bubbles that merge shall not count as one that jumps") {
   blow(world, {{0.006, 0.01, 0.016}, {0.0125, 0.01, 0.022}}, 5e-3);  // they touch now
   step(*bubbles, world);
   CHECK(series_of(*bubbles)["number"] == test::approx(1.0));
-  CHECK(series_of(*bubbles)["rise_velocity"] == test::approx(0.0));
+  CHECK(is_of_nothing(series_of(*bubbles).at("rise_velocity")));
 }
 
 TEST_CASE("bubbles shall refuse a box without inside and a slanted direction") {

@@ -52,6 +52,22 @@ TEST_CASE("evenly spaced riders shall carry spacing, mass and speed back exactly
   CHECK(figures["grams_per_tonne"] == test::approx(1e6 * 800e-12 / 6e-3).epsilon(1e-9));
 }
 
+TEST_CASE("what is carried back after the feed has ended shall have no amount per tonne") {
+  auto parameters = k_layer;
+  parameters["steady_after"] = 0.01;
+  const auto sensor = kind().make(parameters);
+  SyntheticScene world;
+  world.grains = {riding({0.04, 0.005, 0.115}, {-0.8, 0, 0})};
+  for (int s = 0; s < 40; ++s) {
+    if (s < 5) world.emitted_mass += 6e-6;
+    step(*sensor, world);
+  }
+  const Figures figures = summary_of(*sensor);
+  CHECK(figures["mass_flow"] > 0.0);
+  CHECK(std::isnan(figures["grams_per_tonne"]));
+  CHECK(figures.at("grams_per_tonne").uncertainty == sdk::k_feed_not_even);
+}
+
 TEST_CASE("grains that do not ride shall not count") {
   const auto sensor = kind().make(k_layer);
   SyntheticScene world;

@@ -40,6 +40,10 @@ TEST_CASE("the coordination number of a simple cubic block shall follow from its
   step(*without, world);
   CHECK(summary_of(*without)["mean_at_end"] == approx(6.0 * (n - 1) / n).epsilon(1e-14));
   CHECK(summary_of(*without)["rattler_share_at_end"] == 0.0);
+  const auto none = load_sensor("coordination").make({});
+  SyntheticScene empty;
+  step(*none, empty);
+  CHECK(is_of_nothing(summary_of(*none).at("mean")));
 }
 
 TEST_CASE("grains without load shall not count in the mechanical coordination number") {

@@ -56,6 +56,12 @@ TEST_CASE("grains shall count as settled from the last time they became slow") {
     world.grains = {moving({v, 0, 0}, {})};
     step(*sensor, world);
   }
+  const auto none = load_sensor("kinetic_energy").make({});
+  SyntheticScene empty;
+  step(*none, empty);
+  CHECK(summary_of(*none)["translation"] == 0.0);
+  CHECK(is_of_nothing(summary_of(*none).at("mean_per_grain")));
+  CHECK(is_of_nothing(summary_of(*none).at("settled_at")));
   CHECK(summary_of(*sensor)["is_settled"] == 1.0);
   CHECK(summary_of(*sensor)["settled_at"] == approx(0.4).epsilon(1e-14));
 }

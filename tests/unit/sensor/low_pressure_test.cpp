@@ -63,6 +63,7 @@ TEST_CASE("wells of pressure shall be found in place, depth and order") {
   CHECK(figures["place_2/x"] == test::approx(0.0125).epsilon(1e-12));
   CHECK(figures["place_2/depth"] == test::approx(0.3 * smoothed_share()).epsilon(1e-6));
   CHECK(figures["place_3/depth"] == 0.0);
+  CHECK(is_of_nothing(figures.at("place_3/x")));
   CHECK(figures.at("place_1/depth").uncertainty < 1e-9);
   CHECK(series_of(*sensor)["lowest_pressure"] == test::approx(-0.5).epsilon(1e-6));
 }

@@ -299,7 +299,9 @@ TEST_CASE("a feed that begins or ends while dust is counted shall give no amount
   const Figure even = per_tonne(0.1, 0, 400);
   CHECK(even.value == test::approx(0.2).epsilon(1e-9));
   CHECK(even.uncertainty >= 0.0);
-  for (const auto& [begin, end] : {std::pair{0, 300}, std::pair{200, 400}, std::pair{0, 360}}) {
+  for (const auto& [begin, end] : {std::pair{0, 300}, std::pair{200, 400}, std::pair{0, 360},
+                                   std::pair{0, 50}, std::pair{0, 0}}) {
+    CAPTURE(end);
     const Figure figure = per_tonne(0.1, begin, end);
     CHECK(std::isnan(figure.value));
     CHECK(figure.uncertainty == sdk::k_feed_not_even);

@@ -66,6 +66,42 @@ TEST_CASE("a strip beside the middle of a belt shall be off centre by what it li
   CHECK(figures["speed_over_belt_speed"] == test::approx(0.8).epsilon(1e-12));
 }
 
+TEST_CASE("a belt without load and an opening that nothing passes shall have no place and speed") {
+  const auto belt = load_sensor("belt_load")
+                        .make({{"point", Vec3{0, 0, 0}},
+                               {"direction", Vec3{1, 0, 0}},
+                               {"length", 1.0},
+                               {"width", 1.0},
+                               {"height", 0.1},
+                               {"belt_speed", 2.0}});
+  const auto opening = load_sensor("stream_section")
+                           .make({{"point", Vec3{0, 0, 0.1}},
+                                  {"normal", Vec3{0, 0, -1}},
+                                  {"min", Vec3{0, 0, 0.1}},
+                                  {"max", Vec3{0.33, 0.011, 0.1}},
+                                  {"bulk_density", 1600.0},
+                                  {"belt_velocity", Vec3{3.0, 0, 0}}});
+  SyntheticScene world;
+  for (int s = 0; s < 10; ++s) {
+    step(*belt, world);
+    step(*opening, world);
+  }
+  const Figures load = summary_of(*belt);
+  CHECK(load["mass_per_length"] == 0.0);
+  for (const char* name : {"off_centre", "half_width", "speed", "speed_over_belt_speed"}) {
+    CAPTURE(name);
+    CHECK(is_of_nothing(load.at(name)));
+  }
+  CHECK(is_of_nothing(series_of(*belt).at("speed")));
+  const Figures stream = summary_of(*opening);
+  CHECK(stream["mass_flow"] == 0.0);
+  for (const char* name : {"velocity_x", "speed", "angle", "fill_ratio", "impact_pressure",
+                           "speed_along_belt", "speed_along_belt_over_belt_speed"}) {
+    CAPTURE(name);
+    CHECK(is_of_nothing(stream.at(name)));
+  }
+}
+
 TEST_CASE("samples without load shall not pull the place of the load to the middle") {
   const auto sensor = load_sensor("belt_load")
                           .make({{"point", Vec3{0, 0, 0}},
@@ -142,6 +178,34 @@ TEST_CASE("what falls through the level shall count once, per hour and per tonne
   CHECK(figures.at("rate").uncertainty == test::approx(3600.0 / std::sqrt(10.0)).epsilon(1e-9));
 }
 
+TEST_CASE("spillage of a feed that has ended or changes shall have no amount per tonne") {
+  const auto per_tonne = [](double steady_after, int begin, int end) {
+    const auto sensor = load_sensor("spillage")
+                            .make({{"min", Vec3{0, 0, 0.1}},
+                                   {"max", Vec3{0.2, 0.011, 0.1}},
+                                   {"steady_after", steady_after}});
+    SyntheticScene world;
+    for (int n = 0; n < 400; ++n) {
+      world.grains.push_back(at({0.1, 0.005, 0.1005 + 1e-3 * n}, {0, 0, -1}, 1e-3));
+    }
+    for (int s = 0; s < 400; ++s) {
+      move_on(world);
+      if (s >= begin && s < end) world.emitted_mass += 0.5;
+      step(*sensor, world);
+    }
+    return summary_of(*sensor).at("grams_per_tonne");
+  };
+  CHECK(per_tonne(0.1, 0, 400).value == test::approx(2000.0).epsilon(1e-9));
+  CHECK(per_tonne(0.1, 0, 400).uncertainty > 0.0);
+  // Of a batch, counted from its release on, all is known: 400 g of 50 kg.
+  CHECK(per_tonne(0.0, 0, 100).value == test::approx(8000.0).epsilon(1e-9));
+  for (const auto& [begin, end] : {std::pair{0, 50}, std::pair{0, 300}, std::pair{200, 400}}) {
+    const Figure figure = per_tonne(0.1, begin, end);
+    CHECK(std::isnan(figure.value));
+    CHECK(figure.uncertainty == sdk::k_feed_not_even);
+  }
+}
+
 TEST_CASE("what falls through the level on its way to a periodic side shall count once") {
   SyntheticScene world;
   // As the columns have it: from beyond the side through which it comes in again; it has passed
@@ -212,4 +276,14 @@ TEST_CASE("grains that ride on a belt shall not wear it; those that lag do, by h
   const Figures figures = summary_of(*sensor);
   CHECK(figures["volume_rate"] == test::approx(k * 4.0 * 0.5 / hardness).epsilon(1e-9));
   CHECK(figures["depth_rate_largest/x"] == test::approx(0.025).epsilon(1e-9));
+  world.grains.pop_back();
+  world.contacts.pop_back();
+  const auto idle = load_sensor("wear").make({{"min", Vec3{0, 0, -0.01}},
+                                              {"max", Vec3{0.1, 0.01, 0.01}},
+                                              {"cell", 0.01},
+                                              {"coefficient", k},
+                                              {"hardness", hardness}});
+  step(*idle, world);
+  CHECK(summary_of(*idle)["depth_rate_largest/value"] == 0.0);
+  CHECK(is_of_nothing(summary_of(*idle).at("depth_rate_largest/x")));
 }

@@ -223,7 +223,9 @@ TEST_CASE("a feed shall count as even unless it begins, ends or changes while it
   CHECK_FALSE(stopping.is_uneven(0, 0.0));
   CHECK(stopping.is_uneven(0, 3.0));
   CHECK(beginning.is_uneven(0, 0.0));
-  CHECK_FALSE(fed([](int) { return 0.0; }).is_uneven(0, 3.0));
+  // What was fed before, and none since, has ended; what has never been fed is no feed.
+  CHECK(fed([](int) { return 0.0; }).is_uneven(0, 3.0));
+  CHECK_FALSE(fed([](int) { return 0.0; }).is_uneven(0, 0.0));
   CHECK_FALSE(sdk::BatchMeans(1).is_uneven(0, 3.0));
 }
 
@@ -238,6 +240,19 @@ TEST_CASE("few samples shall give no error rather than a wrong one") {
   means.add({&one, 1}, 1.0);
   CHECK(means.error(0) == 0.0);
   CHECK(means.known_mean(0) == means.mean(0));
+}
+
+TEST_CASE("samples without a value shall not count for the mean of their column") {
+  sdk::KnownMeans means(2);
+  CHECK(std::isnan(means.mean(0)));
+  CHECK(means.error(0) == sdk::k_nothing_passed);
+  for (int i = 0; i < 40; ++i) {
+    const double values[] = {i % 2 == 0 ? 3.0 : sdk::k_no_value, static_cast<double>(i)};
+    means.add(values, 0.5);
+  }
+  CHECK(means.mean(0) == 3.0);
+  CHECK(means.error(0) == 0.0);
+  CHECK(means.mean(1) == test::approx(19.5));
 }
 
 TEST_CASE("a thinned curve shall stay short and keep its mean") {

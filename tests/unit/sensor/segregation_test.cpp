@@ -47,6 +47,20 @@ TEST_CASE("separate layers shall have the index 0 and their distance, even mixtu
   CHECK(series_of(*mixed)["mixing_index"] == approx(1.0 / (1.0 - 99.0 / all)).epsilon(1e-9));
 }
 
+TEST_CASE("one kind of grains alone shall have no index and no shift, and nothing no share") {
+  SyntheticScene world;
+  const auto sensor = load_sensor("segregation").make(k_box);
+  step(*sensor, world);
+  CHECK(is_of_nothing(series_of(*sensor).at("fine_number_fraction")));
+  for (int n = 0; n < 400; ++n)
+    world.grains.push_back(at({0.1 * (n + 0.5) / 400, 0.005, 0.05}, true));
+  step(*sensor, world);
+  const Figures figures = summary_of(*sensor);
+  CHECK(is_of_nothing(figures.at("mixing_index")));
+  CHECK(is_of_nothing(figures.at("centre_shift")));
+  CHECK(figures["fine_number_fraction"] == 1.0);
+}
+
 TEST_CASE("the index of random mixtures shall be 1 on average") {
   double mean = 0.0;
   constexpr int k_mixtures = 60;

@@ -41,6 +41,14 @@ TEST_CASE("shares by number and mass and the Sauter diameter shall be those of t
   CHECK(f["sauter_diameter"] == approx(100e-6 * cubes / squares).epsilon(1e-9));
 }
 
+TEST_CASE("no grains shall have no sizes") {
+  const auto sensor = load_sensor("size_distribution").make({});
+  SyntheticScene world;
+  step(*sensor, world);
+  CHECK(is_of_nothing(summary_of(*sensor).at("sauter_diameter")));
+  CHECK(is_of_nothing(series_of(*sensor).at("d_50")));
+}
+
 TEST_CASE("quantiles shall be those of the sum interpolated between the classes") {
   const double d[] = {1.0, 2.0, 3.0};
   const double a[] = {1.0, 2.0, 1.0};  // sums at the classes: 1/8, 1/2, 7/8

@@ -86,6 +86,21 @@ TEST_CASE("in plug flow every grain shall stay the length over the speed") {
   CHECK(figures["holdup_over_flow"] == test::approx(0.05).epsilon(0.02));
 }
 
+TEST_CASE("a box that nothing has left yet shall have no residence time") {
+  const auto sensor = load_sensor("residence_time").make({{"min", k_min}, {"max", k_max}});
+  SyntheticScene world;
+  world.grains.push_back(at({0.15, 0.005, 0.1}, {0, 0, 0}, 1e-3));
+  for (int s = 0; s < 30; ++s) step(*sensor, world);
+  const Figures figures = summary_of(*sensor);
+  for (const char* name : {"mean", "standard_deviation", "fastest_5_percent", "median",
+                           "percent_95", "holdup_over_flow"}) {
+    CAPTURE(name);
+    CHECK(is_of_nothing(figures.at(name)));
+  }
+  CHECK(figures["mass_flow_out"] == 0.0);
+  CHECK(figures["grains"] == 0.0);
+}
+
 TEST_CASE("an ideally mixed vessel shall have exponential residence times") {
   const auto sensor = load_sensor("residence_time").make({{"min", k_min}, {"max", k_max}});
   constexpr double k_tau = 0.02;
@@ -215,6 +230,7 @@ TEST_CASE("a region that lets all pass shall not be told to fill") {
   CHECK(figures["inflow"] == test::approx(figures["outflow"]).epsilon(1e-9));
   CHECK(std::abs(figures["growth"]) < 1e-6);
   CHECK(figures["is_filling"] == 0.0);
+  CHECK(is_of_nothing(figures.at("first_beyond_largest_mass")));
 }
 
 TEST_CASE("the error of a trend shall cover the truth as often as it says") {

@@ -100,6 +100,9 @@ TEST_CASE("the quantiles of a normal stream shall be covered by their errors at 
     high.add(figures.at("drop_140_mm/quantile_95"), 0.12 + z_95 * sigma);
     error += figures.at("drop_140_mm/median").uncertainty / k_runs;
     CHECK(figures["drop_50_mm/crossings"] == 0.0);
+    CHECK(is_of_nothing(figures.at("drop_50_mm/median")));
+    CHECK(is_of_nothing(figures.at("drop_50_mm/median_vertical_speed")));
+    CHECK(is_of_nothing(series_of(*sensor).at("drop_50_mm/mean")));
   }
   for (const Coverage* c : {&median, &low, &high}) {
     CHECK(c->without_error == 0);

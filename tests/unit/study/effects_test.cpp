@@ -197,6 +197,22 @@ TEST_CASE("an expectation shall stay open where points are not steady, whatever 
   CHECK(effects[0].levels[0].error < 0.0);
 }
 
+TEST_CASE("an expectation shall stay open where runs say that nothing has passed") {
+  Made made(1);
+  // The belt has delivered at 4 m/s alone.
+  for (std::size_t n = 0; n < 4; ++n) {
+    made.outcomes[n].outputs[0] = {.value = {}, .error = -1.0, .no_error = "nothing passed"};
+  }
+  Expectation e;
+  e.output = "x";
+  e.input = "belt.speed";
+  e.then = "rises";
+  const Verdict verdict = assess(e, made.spec, made.results());
+  CHECK(verdict.kind == Verdict::Kind::unknown);
+  CHECK(verdict.text == "open: 4 of 6 points without a value: nothing passed");
+  CHECK(why_no_errors(made.plan, made.outcomes[0]) == "x: nothing passed");
+}
+
 TEST_CASE("levels without a combination in common shall give no effect") {
   Made made(1);
   // At 1 m/s case a alone, at 4 m/s case b alone.
