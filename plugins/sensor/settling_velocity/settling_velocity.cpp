@@ -93,10 +93,10 @@ class SettlingVelocity final : public sdk::Sensor {
                 sdk::detail(sdk::Quantity::velocity));
     figure(sink, "velocity_at_end", values_[0], "m/s", sdk::Quantity::velocity);
     figure(sink, "height_at_end", values_[1], "m", sdk::Quantity::length);
-    const bool has_sunk = largest_[0] > 0.0;
-    figure(sink, "largest/velocity", has_sunk || has_grains_ ? largest_[0] : sdk::k_no_value, "m/s",
-           sdk::Quantity::velocity);
-    figure(sink, "largest/time", has_sunk ? largest_[1] : sdk::k_no_value, "s",
+    const bool has_settled = largest_[0] > 0.0;
+    figure(sink, "largest/velocity", has_settled || has_grains_ ? largest_[0] : sdk::k_no_value,
+           "m/s", sdk::Quantity::velocity);
+    figure(sink, "largest/time", has_settled ? largest_[1] : sdk::k_no_value, "s",
            sdk::Quantity::time);
     for (std::size_t n = 0; n < passages_.levels().size(); ++n) {
       const std::string name = "level_" + sdk::name_of(passages_.levels()[n] * 1e3) + "_mm/";
