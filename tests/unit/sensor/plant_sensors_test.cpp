@@ -185,10 +185,8 @@ TEST_CASE("spillage of a feed that has ended or changes shall have no amount per
                                    {"max", Vec3{0.2, 0.011, 0.1}},
                                    {"steady_after", steady_after}});
     SyntheticScene world;
-    for (int n = 0; n < 400; ++n) {
-      world.grains.push_back(at({0.1, 0.005, 0.1005 + 1e-3 * n}, {0, 0, -1}, 1e-3));
-    }
     for (int s = 0; s < 400; ++s) {
+      world.grains.assign(1, at({0.1, 0.005, 0.1005}, {0, 0, -1}, 1e-3));
       move_on(world);
       if (s >= begin && s < end) world.emitted_mass += 0.5;
       step(*sensor, world);

@@ -266,7 +266,7 @@ class BatchMeans {
   /// began, and no more of it comes. What was fed before the means began, and none while they are
   /// taken, is a feed that has ended. `before`: what had been fed by then, in the column's unit.
   [[nodiscard]] bool is_uneven(std::size_t column, double before) const {
-    if (mean(column) == 0.0) return before > 0.0;
+    if (mean(column) == 0.0) return before > 0.0 && duration() > 0.0;
     if (is_even(column)) return false;
     return before > 0.0 || !has_ended(column);
   }
