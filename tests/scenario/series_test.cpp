@@ -42,7 +42,7 @@ std::map<std::string, std::vector<double>> columns_of(const fs::path& file) {
         names.push_back(cell);
         columns[cell] = {};
       } else {
-        columns[names[n]].push_back(std::stod(cell));
+        columns[names[n]].push_back(cell.empty() ? std::nan("") : std::stod(cell));
       }
     }
   }

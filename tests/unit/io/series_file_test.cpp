@@ -48,6 +48,14 @@ TEST_CASE("the series shall hold numbers that read back as the same double") {
   CHECK(file.rows() == 6);
 }
 
+TEST_CASE("what has no value shall be an empty field of the series") {
+  const TemporaryFolder folder;
+  SeriesFile file(folder.path() / "series.csv", -1);
+  append(file, 1.0, std::nan(""));
+  append(file, 2.0, 3.0);
+  CHECK(text_of(folder.path() / "series.csv") == "time [s],mass [kg]\n1,\n2,3\n");
+}
+
 TEST_CASE("columns that change shall be told by their names, also after a resume") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "series.csv";
