@@ -184,7 +184,7 @@ void read_checkpoint(
   std::string difference;
   try {
     difference = ScenarioLeaves(state.resolved_yaml())
-                     .first_difference(ScenarioLeaves(resolved_yaml), k_free_on_resume);
+                     .differences(ScenarioLeaves(resolved_yaml), k_free_on_resume);
   } catch (const base::RunError& e) {
     throw base::UserError(start + ": damaged checkpoint: " + e.what() + "; " + remedy);
   }

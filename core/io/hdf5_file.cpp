@@ -107,6 +107,8 @@ bool may_read_while_writing() {
   return H5is_library_threadsafe(&is_safe) >= 0 && is_safe;
 }
 
+void leave_hdf5_open_at_exit() { H5dont_atexit(); }
+
 Handle open_file(const std::filesystem::path& file) {
   clear_write_failure();
   return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,

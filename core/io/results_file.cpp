@@ -5,6 +5,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/paraview/paraview_state.hpp"
 #include "io/run_files.hpp"
+#include "io/way_on.hpp"
 #include "io/xdmf.hpp"
 
 namespace dust::io {
@@ -57,8 +58,8 @@ struct ResultsFile::Impl {
       } catch (const base::RunError& e) {
         throw base::UserError("error: " + folder.string() + ": frame " + std::to_string(number) +
                               " of the " + std::to_string(count) +
-                              " before the checkpoint is missing: " + e.what() +
-                              "; start again with --force");
+                              " before the checkpoint is missing: " + e.what() + "; " +
+                              way_on_from_checkpoint(folder));
       }
     }
     fluid = read_fluid_layout(folder);

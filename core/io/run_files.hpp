@@ -19,6 +19,11 @@ namespace dust::io {
 /// does).
 [[nodiscard]] bool may_read_while_writing();
 
+/// To be called before anything else of this room: at the end of the program HDF5 leaves its
+/// objects to the system. Every file is closed by then; of a damaged one it cannot close what it
+/// has read, and says so for ever.
+void leave_hdf5_open_at_exit();
+
 /// A field of a sensor, as it is written with a frame.
 struct SensorField {
   std::string sensor;

@@ -69,6 +69,33 @@ std::string ScenarioLeaves::first_difference(const ScenarioLeaves& now,
   return show(in_a, a.end()) + " in the checkpoint, " + show(in_b, b.end()) + " now";
 }
 
+std::string ScenarioLeaves::differences(const ScenarioLeaves& now,
+                                        std::span<const std::string_view> ignored) const {
+  constexpr std::size_t k_shown = 5;
+  const auto takes = [&](const std::string& path) { return !is_below_any(path, ignored); };
+  const std::vector<Leaf> before = chosen(takes);
+  const std::vector<Leaf> after = now.chosen(takes);
+  const auto show = [](const std::vector<Leaf>& leaves, const std::string& path) {
+    const auto found = std::find_if(leaves.begin(), leaves.end(),
+                                    [&](const Leaf& leaf) { return leaf.path == path; });
+    return found == leaves.end() ? "nothing" : "'" + path + ": " + found->value + "'";
+  };
+  std::string text;
+  std::size_t count = 0;
+  const auto compare = [&](const std::string& path) {
+    const std::string a = show(before, path);
+    const std::string b = show(after, path);
+    if (a == b || ++count > k_shown) return;
+    text += (text.empty() ? "" : "; ") + a + " in the checkpoint, " + b + " now";
+  };
+  for (const Leaf& leaf : before) compare(leaf.path);
+  for (const Leaf& leaf : after) {
+    if (show(before, leaf.path) == "nothing") compare(leaf.path);
+  }
+  if (count > k_shown) text += "; and " + std::to_string(count - k_shown) + " more";
+  return text.empty() ? first_difference(now, ignored) : text;  // in another order
+}
+
 bool ScenarioLeaves::is_same_below(const std::string& path, const ScenarioLeaves& other,
                                    std::span<const std::string_view> ignored) const {
   const auto takes = [&](const std::string& leaf) {

@@ -19,6 +19,9 @@ class ScenarioLeaves {
   /// `ignored` paths and what is below them.
   [[nodiscard]] std::string first_difference(const ScenarioLeaves& now,
                                              std::span<const std::string_view> ignored) const;
+  /// The same of up to five settings, separated by ';', and how many more there are.
+  [[nodiscard]] std::string differences(const ScenarioLeaves& now,
+                                        std::span<const std::string_view> ignored) const;
   /// Whether both say the same below `path`, but for `ignored` paths.
   [[nodiscard]] bool is_same_below(const std::string& path, const ScenarioLeaves& other,
                                    std::span<const std::string_view> ignored = {}) const;

@@ -4,6 +4,7 @@
 #include "base/write_error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/run_files.hpp"
+#include "io/way_on.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -98,8 +99,8 @@ struct SeriesFile::Impl {
     }
     if (rows < wanted) {
       throw base::UserError("error: " + file.string() + " holds " + std::to_string(rows) +
-                            " rows, the checkpoint needs " + std::to_string(wanted) +
-                            "; start again with --force");
+                            " rows, the checkpoint needs " + std::to_string(wanted) + "; " +
+                            way_on_from_checkpoint(file.parent_path()));
     }
     write_text(file, text.substr(0, kept));
   }

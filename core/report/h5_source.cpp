@@ -94,6 +94,15 @@ std::vector<std::string> H5Source::frames(const std::string& group) const {
   return names;
 }
 
+std::size_t H5Source::missing_frames(const std::string& group) const {
+  if (!is_open()) return 0;
+  const Handle node(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  H5G_info_t info{};
+  if (node < 0 || H5Gget_info(node, &info) < 0) return 0;
+  return static_cast<std::size_t>(info.nlinks) -
+         std::min<std::size_t>(info.nlinks, frames(group).size());
+}
+
 std::vector<double> H5Source::attribute(const std::string& object, const std::string& name) const {
   const Handle attribute = attribute_of(file_, object, name);
   if (attribute < 0) return {};

@@ -24,6 +24,9 @@ class H5Source {
   /// The frame numbers under a group, ascending: names of digits alone that can be opened.
   [[nodiscard]] std::vector<std::string> frames(const std::string& group) const;
 
+  /// Frames that the group names but whose files are not there or cannot be read.
+  [[nodiscard]] std::size_t missing_frames(const std::string& group) const;
+
   [[nodiscard]] std::vector<double> attribute(const std::string& object,
                                               const std::string& name) const;
   /// An attribute of texts.

@@ -5,11 +5,13 @@
 
 namespace dust::report {
 
-void write_report(const std::filesystem::path& folder, const Templates& templates) {
+std::vector<std::string> write_report(const std::filesystem::path& folder,
+                                      const Templates& templates) {
   const nlohmann::json document = run_document(folder);
   constexpr auto k_replace = nlohmann::json::error_handler_t::replace;
   write_page(folder / "report.json", document.dump(-1, ' ', false, k_replace) + "\n");
   write_page(folder / "report.html", page_of(templates, "run.html", document));
+  return document.at("notes").get<std::vector<std::string>>();
 }
 
 }  // namespace dust::report

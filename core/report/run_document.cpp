@@ -145,6 +145,11 @@ json frames_json(const std::filesystem::path& folder, RunText& run, Highlights& 
   if (!source.is_open() && std::filesystem::exists(folder / "results.h5")) {
     run.notes.emplace_back("results.h5 cannot be read: the pictures are missing.");
   }
+  if (const std::size_t missing = source.missing_frames("/particles"); missing > 0) {
+    run.notes.emplace_back(std::to_string(missing) +
+                           " frames of results.h5 are missing or damaged (folder frames): what "
+                           "they showed is not in the pictures.");
+  }
   json data;
   const json bodies = bodies_of(run.report, source);
   const View view = view_of(source, bodies, run.scenario);

@@ -2,6 +2,7 @@
 #include "report/run_text.hpp"
 
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -112,12 +113,13 @@ namespace {
 /// A run that goes on, or was killed, has not written what it is read from.
 [[noreturn]] void refuse_unfinished(const std::filesystem::path& folder) {
   const std::string name = folder.string();
+  const std::string quoted = base::shell_word(name);
   const bool can_go_on = std::filesystem::exists(folder / "checkpoint.h5");
   throw base::UserError(
       "error: " + name +
-      " holds a run that has not ended: it has no summary.json yet; 'engine watch " + name +
+      " holds a run that has not ended: it has no summary.json yet; 'engine watch " + quoted +
       "' tells whether it goes on; one that was stopped goes on with 'engine run " +
-      (folder / "scenario.yaml").string() + " -o " + name +
+      base::shell_word((folder / "scenario.yaml").string()) + " -o " + quoted +
       (can_go_on ? " --resume'" : " --force', from the start: it has no checkpoint"));
 }
 

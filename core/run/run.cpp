@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/end_signals.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/shell_word.hpp"
 #include "base/write_error.hpp"
 #include "dust/sdk/error.hpp"
 #include "fluid/geometry/body_suction.hpp"
@@ -317,7 +319,7 @@ class Run {
     learn_cost();
     if (facts_.status == "interrupted") {
       std::fprintf(stderr, "interrupted at t = %.4g s; go on with --resume -o %s\n",
-                   simulation_.time(), folder_.c_str());
+                   simulation_.time(), base::shell_word(folder_.string()).c_str());
       return 128 + static_cast<int>(g_signal);
     }
     return 0;
@@ -346,11 +348,7 @@ class Run {
     const std::string checkpoint = (folder_ / "checkpoint.h5").string();
     const std::string when = "the run failed at t = " + std::to_string(simulation_.time()) + " s: ";
     if (is_disk_bad_) {
-      base::log_error(
-          when + facts_.reason +
-          (fs::exists(checkpoint)
-               ? ", then go on from the last good checkpoint with --resume -o " + folder_.string()
-               : ", then start again with --force -o " + folder_.string()));
+      base::log_error(when + facts_.reason + way_on());
       return;
     }
     base::log_error(when + facts_.reason);
@@ -364,6 +362,19 @@ class Run {
                     ": the same scenario goes on from it with --resume, a changed one (steps, "
                     "speeds, laws, bodies) with 'start_from: " +
                     folder_.string() + "' (docs/how_to/branch_a_run.md)");
+  }
+
+  /// Behind a file that could not be written.
+  [[nodiscard]] std::string way_on() const {
+    const std::string to_folder = " -o " + base::shell_word(folder_.string());
+    std::error_code none;
+    if (fs::exists(folder_ / "checkpoint.h5", none)) {
+      return ", then go on from the last good checkpoint with --resume" + to_folder;
+    }
+    if (fs::exists(folder_, none)) return ", then start again with --force" + to_folder;
+    return " Where it has been moved it holds the last good checkpoint: go on with --resume -o and "
+           "its new place; else start again with" +
+           to_folder;
   }
 
   void write_frame() {
@@ -531,16 +542,10 @@ void take_port(const RunOptions& options, std::optional<LiveReport>& live) {
   live.emplace(*options.live_port);
 }
 
-void catch_signals() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  // A file beyond the limit of `ulimit -f` is an error like a full disk, not the program's end.
-  std::signal(SIGXFSZ, SIG_IGN);
-}
-
 }  // namespace
 
 int run_scenario(const RunOptions& options) {
+  base::ignore_write_signals();
   registry::Registry registry;
   registry.load(registry::Registry::search_path(options.plugin_path));
   const auto read =
@@ -586,7 +591,7 @@ int run_scenario(const RunOptions& options) {
   Run run(*simulation, folder, read.resolved_yaml, used_models(read, registry),
           read.start.keep_every);
   if (options.resume) run.resume(read.start.end_where);
-  catch_signals();
+  base::catch_end_signals(on_signal);
   if (live) {
     live->begin(folder);
     facts.log_header.push_back("live at " + live->address());

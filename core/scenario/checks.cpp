@@ -22,6 +22,17 @@ bool is_multiple(double value, double step) {
 
 std::string seconds(double value) { return number_text(value) + " s"; }
 
+/// No run comes to its end, and its steps could not be counted.
+bool check_step_count(const char* path, double time, const char* of_step, double step,
+                      const Mark& where, Diagnostics& diagnostics) {
+  constexpr double k_max_steps = 1e15;
+  if (!(time > k_max_steps * step)) return true;
+  diagnostics.error(where, std::string(path) + ": " + seconds(time) + " is more than 1e15 times " +
+                               of_step + ", " + seconds(step) +
+                               ", which no run reaches: give a shorter time or a longer step");
+  return false;
+}
+
 }  // namespace
 
 void check_sides(const DomainSpec& domain, const std::array<bool, 6>& is_read,
@@ -49,7 +60,9 @@ void check_sides(const DomainSpec& domain, const std::array<bool, 6>& is_read,
 
 void check_multiple(const char* path, double every, double fluid_step, const Mark& where,
                     Diagnostics& diagnostics) {
-  if (!(every > 0.0) || !(fluid_step > 0.0) || is_multiple(every, fluid_step)) return;
+  if (!(every > 0.0) || !(fluid_step > 0.0)) return;
+  if (!check_step_count(path, every, "fluid_step", fluid_step, where, diagnostics)) return;
+  if (is_multiple(every, fluid_step)) return;
   diagnostics.error(where, std::string(path) + ": " + seconds(every) +
                                " is not a multiple of fluid_step, " + seconds(fluid_step));
 }
@@ -66,6 +79,10 @@ void check_begin_of_means(const std::string& path, double begin, double end, con
 void check_time(const TimeSpec& time, const TimeMarks& where, Diagnostics& diagnostics) {
   if (!(time.fluid_step > 0.0)) return;
   const std::string step = seconds(time.fluid_step);
+  check_step_count("time.end", time.end, "fluid_step", time.fluid_step, where.end, diagnostics);
+  if (time.dem_step > 0.0) {
+    check_step_count("time.end", time.end, "dem_step", time.dem_step, where.end, diagnostics);
+  }
   check_multiple("time.output_every", time.output_every, time.fluid_step, where.output_every,
                  diagnostics);
   check_multiple("time.checkpoint_every", time.checkpoint_every, time.fluid_step,

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study.hpp"
 
+#include "base/end_signals.hpp"
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "base/text.hpp"
 #include "io/atomic_file.hpp"
+#include "io/result_folder.hpp"
 #include "registry/registry.hpp"
 #include "study/calibration/calibrate_runs.hpp"
 #include "study/effects.hpp"
@@ -154,7 +157,7 @@ class Study {
       }
       return 0;
     }
-    fs::create_directories(folder);
+    io::make_result_folder(folder);
     const FolderLock lock(folder);
     if (options_.force) clear_study_folder(folder);
     copy_study(options_.file, folder);
@@ -205,7 +208,8 @@ class Study {
   [[nodiscard]] int conclude(const fs::path& folder, const Runner& runner,
                              const std::optional<CalibrationAnswer>& answer, int signal) const {
     if (signal != 0) {
-      std::fprintf(stderr, "interrupted; go on with --resume -o %s\n", folder.c_str());
+      std::fprintf(stderr, "interrupted; go on with --resume -o %s\n",
+                   base::shell_word(folder.string()).c_str());
       return 128 + signal;
     }
     if (!options_.quiet) {
@@ -229,7 +233,7 @@ class Study {
           stderr,
           "stopped at the first failure (--fail-fast): %td left waiting; --resume -o %s goes "
           "on with them\n",
-          waiting, folder.c_str());
+          waiting, base::shell_word(folder.string()).c_str());
     }
     return 1;
   }
@@ -253,6 +257,7 @@ bool can_be_planned(const Spec& spec, const scenario::Diagnostics& diagnostics) 
 }  // namespace
 
 int run_study(const StudyOptions& options) {
+  base::ignore_write_signals();
   registry::Registry registry;
   registry.load(
       registry::Registry::search_path({options.plugin_path.begin(), options.plugin_path.end()}));

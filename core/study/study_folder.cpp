@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "io/replacing.hpp"
+#include "io/result_folder.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -32,18 +33,24 @@ bool is_used(const fs::path& folder) {
   return fs::exists(folder) && !(fs::is_directory(folder) && fs::is_empty(folder));
 }
 
+/// A name that is mistyped is not to begin the study anew.
+void check_resumed(const StudyOptions& options, const fs::path& folder) {
+  if (!options.resume || is_used(folder)) return;
+  throw base::UserError(
+      "error: " + folder.string() + " holds no study to resume; " +
+      (options.output ? "start the study without --resume" : "name the study's folder with -o"));
+}
+
 fs::path named_or_numbered(const StudyOptions& options, const std::string& name) {
   if (options.output) {
     const fs::path& folder = *options.output;
-    if (std::error_code none; fs::exists(folder, none) && !fs::is_directory(folder, none)) {
-      throw base::UserError("error: -o " + folder.string() +
-                            " is a file, results go to a folder: give another -o");
-    }
+    io::check_result_folder(folder);
     if (is_used(folder) && !options.resume && !options.force) {
       throw base::UserError("error: the folder " + folder.string() +
                             " is not empty; give --resume to go on with the study in it, --force "
                             "to replace it, or another -o");
     }
+    check_resumed(options, folder);
     return folder;
   }
   const auto numbered = [&](int n) {
@@ -51,7 +58,10 @@ fs::path named_or_numbered(const StudyOptions& options, const std::string& name)
   };
   int free = 1;
   while (fs::exists(numbered(free))) ++free;
-  return numbered(options.resume || options.force ? std::max(1, free - 1) : free);
+  fs::path folder = numbered(options.resume || options.force ? std::max(1, free - 1) : free);
+  io::check_result_folder(folder);
+  check_resumed(options, folder);
+  return folder;
 }
 
 }  // namespace

@@ -138,6 +138,7 @@ def vanished_folder(bench, work):
     process.returncode = process.wait(timeout=60)
     process.stdout, process.stderr = "", process.stderr.read()
     check_message(process, folder, "a folder that vanishes", "has it been moved or removed?")
+    expect("--resume -o and its new place" in process.stderr, "a folder that vanishes: may have been moved", process)
     run = bench.engine(moved, "--resume", "--set", "time.end=12 ms")
     expect(run.returncode == 0, "a folder that was moved goes on in its new place", run)
 

@@ -87,6 +87,34 @@ TEST_CASE("describe shall take a model by its name alone where one kind has it")
   CHECK(engine("describe gidaspow").out == whole.out);
 }
 
+TEST_CASE("describe shall print all models of a kind in every form") {
+  const Outcome as_json = engine("describe drag --json");
+  CHECK_MESSAGE(as_json.status == 0, as_json.err);
+  const auto models = nlohmann::json::parse(as_json.out);
+  REQUIRE(models.is_array());
+  REQUIRE(!models.empty());
+  for (const auto& model : models) CHECK(model["kind"] == "drag");
+  const Outcome page = engine("describe drag --markdown");
+  CHECK_MESSAGE(page.status == 0, page.err);
+  CHECK(page.out.find(engine("describe drag/gidaspow --markdown").out) != std::string::npos);
+}
+
+TEST_CASE("output that a full disk takes shall be no success") {
+  for (const std::string command :
+       {"schema", "plugins", "list", "man", "completion", "describe drag/gidaspow", "--help"}) {
+    CAPTURE(command);
+    const fs::path err = fs::temp_directory_path() / ("dust_full_" + std::to_string(::getpid()));
+    const int status = std::system(("env -u DUST_PLUGIN_PATH " PREFIX "/bin/engine " + command +
+                                    " > /dev/full 2> " + err.string())
+                                       .c_str());
+    CHECK(WEXITSTATUS(status) == 1);
+    CHECK(text_of(err) ==
+          "error: standard output cannot be written: No space left on device: what was printed is "
+          "not whole\n");
+    fs::remove(err);
+  }
+}
+
 TEST_CASE("folders that are no runs shall be refused with a remedy") {
   check_refused("compare nowhere elsewhere",
                 "error: nowhere is not a folder; give the output folder of a run, for example "

@@ -245,6 +245,25 @@ TEST_CASE("a file given as output folder shall be refused as one, also with forc
   CHECK(read_file(out) == "data");
 }
 
+TEST_CASE("a folder that cannot be made shall be refused as a wrong -o") {
+  const TemporaryFolder folder;
+  { std::ofstream(folder / "file") << "data"; }
+  fs::create_symlink(folder / "nowhere", folder / "link");
+  const auto message_of = [&](const std::string& out, const char* how) {
+    const auto refused = engine({"run", k_scenario, "-o", out, "--set", k_short, how});
+    CHECK(refused.status == 2);
+    return refused.err;
+  };
+  CHECK(message_of(folder / "file/out", "--quiet").find("cannot be made") != std::string::npos);
+  CHECK(message_of(folder / "link", "--quiet").find("nowhere, which is not there") !=
+        std::string::npos);
+  CHECK(message_of(folder / std::string(300, 'a'), "--quiet").find("File name too long") !=
+        std::string::npos);
+  const std::string latin = folder / "caf\xE9";
+  CHECK(message_of(latin, "--quiet").find("not UTF-8") != std::string::npos);
+  CHECK_FALSE(fs::exists(latin));
+}
+
 TEST_CASE("a broken scenario shall exit with 2, say where, and leave no folder") {
   const TemporaryFolder folder;
   const fs::path out = folder / "out";

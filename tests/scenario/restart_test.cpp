@@ -160,6 +160,11 @@ TEST_CASE("resuming with another scenario shall be refused with the difference")
                            "bodies.belt.speed=0.4 m/s", "--resume", "--quiet"});
   CHECK(run.status == 2);
   CHECK(run.err.find("speed") != std::string::npos);
+  const auto two = engine({"run", k_scenario, "-o", out, "--set", "seed=77", "--set",
+                           "bodies.belt.speed=0.4 m/s", "--resume", "--quiet"});
+  CHECK(two.status == 2);
+  CHECK(two.err.find("speed") != std::string::npos);
+  CHECK(two.err.find("seed") != std::string::npos);
 }
 
 TEST_CASE("resuming to an end that has passed shall be refused and change nothing") {
@@ -186,6 +191,18 @@ TEST_CASE("resuming without a checkpoint shall be refused with a remedy") {
   const auto run = engine({"run", k_scenario, "-o", folder / "none", "--resume"});
   CHECK(run.status == 2);
   CHECK(run.err.find("checkpoint") != std::string::npos);
+  CHECK(run.err.find("without --resume") != std::string::npos);
+  // Killed before its first checkpoint: each remedy leads on.
+  REQUIRE(engine({"run", k_scenario, "-o", folder / "cut", "--set", "time.end=4 ms", "--quiet"})
+              .status == 0);
+  fs::remove(fs::path(folder / "cut") / "checkpoint.h5");
+  fs::remove(fs::path(folder / "cut") / "summary.json");
+  const auto again = engine({"run", k_scenario, "-o", folder / "cut", "--resume"});
+  CHECK(again.status == 2);
+  CHECK(again.err.find("--force") != std::string::npos);
+  const auto followed = engine({"watch", folder / "cut"});
+  CHECK(followed.out.find("start again with --force -o ") != std::string::npos);
+  CHECK(followed.out.find("--resume") == std::string::npos);
 }
 
 TEST_CASE("a folder that a run writes to shall be refused to another one") {

@@ -278,6 +278,21 @@ TEST_CASE("a dry run shall tell of a branch what is left of it") {
   CHECK(branch / whole == approx(0.25).epsilon(0.1));
 }
 
+TEST_CASE(
+    "a study that is not there shall not be resumed, and none begins where no folder can be") {
+  const TemporaryFolder folder;
+  const auto absent =
+      engine({"study", k_here / "drop_study.yaml", "-o", folder / "none", "--resume"});
+  CHECK(absent.status == 2);
+  CHECK(absent.err.find("holds no study to resume; start the study without --resume") !=
+        std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "none"));
+  fs::create_symlink(folder / "nowhere", folder / "link");
+  CHECK(engine({"study", k_here / "drop_study.yaml", "-o", folder / "link"}).status == 2);
+  CHECK(engine({"study", k_here / "drop_study.yaml", "-o", folder / "caf\xE9"}).status == 2);
+  CHECK_FALSE(fs::exists(folder / "caf\xE9"));
+}
+
 TEST_CASE("a folder that holds a study shall be kept unless told otherwise") {
   const TemporaryFolder folder;
   fs::create_directories(folder / "out");

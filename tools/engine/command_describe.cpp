@@ -93,7 +93,7 @@ void print_markdown(const Subject& subject) {
   }
 }
 
-void print_json(const Subject& subject) {
+Json json_of(const Subject& subject) {
   const sdk::ModelInfo& info = subject.info;
   Json json = {{"kind", info.kind},       {"name", info.name},          {"version", info.version},
                {"summary", info.summary}, {"equation", info.equation},  {"source", info.source},
@@ -110,7 +110,30 @@ void print_json(const Subject& subject) {
     if (!p.options.empty()) one["options"] = p.options;
     json["parameters"].push_back(one);
   }
-  std::cout << json.dump(2) << '\n';
+  return json;
+}
+
+/// All models of a kind.
+void print_whole_kind(const std::vector<Subject>& all, const std::string& kind, bool as_json,
+                      bool as_markdown) {
+  if (!as_json && !as_markdown) {
+    std::cout << kind << '\n';
+    print_kind(std::cout, all, kind, true);
+    return;
+  }
+  Json list = Json::array();
+  const char* gap = "";
+  for (const Subject& subject : all) {
+    if (subject.info.kind != kind) continue;
+    if (as_json) {
+      list.push_back(json_of(subject));
+    } else {
+      std::cout << gap;
+      print_markdown(subject);
+      gap = "\n";
+    }
+  }
+  if (as_json) std::cout << list.dump(2) << '\n';
 }
 
 }  // namespace
@@ -128,8 +151,8 @@ void add_describe(CLI::App& app, int&) {
   command
       ->add_option(
           "KIND/NAME", arguments->subject,
-          "A model, for example drag/gidaspow or gidaspow; a kind alone: all of its models in "
-          "short")
+          "A model, for example drag/gidaspow or gidaspow; a kind alone: all of its models, "
+          "in short or as Markdown or JSON")
       ->required();
   auto* markdown = command->add_flag("--markdown", arguments->as_markdown, "Print as Markdown");
   command->add_flag("--json", arguments->as_json, "Print as JSON")->excludes(markdown);
@@ -143,15 +166,13 @@ void add_describe(CLI::App& app, int&) {
     const auto registry = load_plugins(arguments->folders);
     const auto all = subjects(*registry);
     const auto kinds = kinds_of(all);
-    if (std::find(kinds.begin(), kinds.end(), arguments->subject) != kinds.end() &&
-        !arguments->as_json && !arguments->as_markdown) {
-      std::cout << arguments->subject << '\n';
-      print_kind(std::cout, all, arguments->subject, true);
+    if (std::find(kinds.begin(), kinds.end(), arguments->subject) != kinds.end()) {
+      print_whole_kind(all, arguments->subject, arguments->as_json, arguments->as_markdown);
       return;
     }
     const Subject subject = find_subject(*registry, arguments->subject);
     if (arguments->as_json) {
-      print_json(subject);
+      std::cout << json_of(subject).dump(2) << '\n';
     } else if (arguments->as_markdown) {
       print_markdown(subject);
     } else {

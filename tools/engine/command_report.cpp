@@ -3,6 +3,8 @@
 #include "commands.hpp"
 #include "report/report.hpp"
 
+#include <iostream>
+
 namespace dust::engine {
 
 void add_report(CLI::App& app, int&) {
@@ -21,7 +23,11 @@ void add_report(CLI::App& app, int&) {
     if (!std::filesystem::is_directory(arguments->folder)) {
       throw base::UserError(arguments->folder + ": error: no such folder");
     }
-    report::write_report(arguments->folder, report::Templates(arguments->templates));
+    const auto missing =
+        report::write_report(arguments->folder, report::Templates(arguments->templates));
+    for (const std::string& note : missing) {
+      std::cerr << "warning: " << arguments->folder << ": " << note << '\n';
+    }
   });
 }
 

@@ -2,6 +2,7 @@
 #include "about/version.hpp"
 #include "base/error.hpp"
 #include "commands.hpp"
+#include "io/run_files.hpp"
 #include "memory/huge_pages.hpp"
 #include "program/program.hpp"
 #include "registry/crash_notice.hpp"
@@ -9,6 +10,9 @@
 #include "scenario/text/suggest.hpp"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 
@@ -57,6 +61,20 @@ int report(const CLI::App& app, const CLI::ParseError& problem) {
   return k_wrong_input;
 }
 
+/// A result that has not come where it was sent is none. What a run or a study prints is progress:
+/// theirs is in their folder, and they go on without anybody who reads along.
+int with_output_checked(const CLI::App& app, int status) {
+  const bool is_progress = app.got_subcommand("run") || app.got_subcommand("study");
+  errno = 0;
+  std::cout.flush();
+  const bool is_flushed = std::fflush(stdout) == 0 && std::cout.good() && std::ferror(stdout) == 0;
+  if (is_flushed || is_progress || status != 0) return status;
+  std::cerr << "error: standard output cannot be written"
+            << (errno != 0 ? std::string(": ") + std::strerror(errno) : "")
+            << ": what was printed is not whole\n";
+  return k_failed;
+}
+
 int engine_main(int argc, char** argv) {
   CLI::App app{"Bulk solids, the air around them and the dust that gets loose."};
   app.name("engine");
@@ -101,14 +119,15 @@ int engine_main(int argc, char** argv) {
   try {
     app.parse(arguments);
   } catch (const CLI::ParseError& problem) {
-    return report(app, problem);
+    return with_output_checked(app, report(app, problem));
   }
-  return status;
+  return with_output_checked(app, status);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  io::leave_hdf5_open_at_exit();
   try {
     return engine_main(argc, argv);
   } catch (const base::UserError& problem) {

@@ -4,8 +4,8 @@
 #include "base/error.hpp"
 #include "base/log.hpp"
 #include "base/write_error.hpp"
-#include "io/atomic_file.hpp"
 #include "io/replacing.hpp"
+#include "io/result_folder.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -54,16 +54,14 @@ OutputFolder::OutputFolder(const RunOptions& options, const std::string& scenari
 
 void OutputFolder::choose(const RunOptions& options) {
   path_ = *options.output;
-  if (std::error_code none; fs::exists(path_, none) && !fs::is_directory(path_, none)) {
-    throw base::UserError("error: -o " + path_.string() +
-                          " is a file, results go to a folder: give another -o");
-  }
-  const bool is_used = fs::exists(path_) && !(fs::is_directory(path_) && fs::is_empty(path_));
+  io::check_result_folder(path_);
+  const bool is_used = fs::exists(path_) && !fs::is_empty(path_);
   if (options.resume) {
     if (!fs::exists(path_ / "checkpoint.h5")) {
-      throw base::UserError(
-          "error: " + path_.string() +
-          " holds no checkpoint.h5 to resume from; start the run without --resume");
+      throw base::UserError("error: " + path_.string() +
+                            " holds no checkpoint.h5 to resume from; " +
+                            (is_used ? "start again with --force in place of --resume"
+                                     : "start the run without --resume"));
     }
   } else if (is_used && !options.force) {
     throw base::UserError("error: the folder " + path_.string() +
@@ -80,6 +78,7 @@ void OutputFolder::choose_numbered(const RunOptions& options) {
   const int free = first_free_number(name_);
   is_new_number_ = !options.resume && !(options.force && free > 1);
   path_ = numbered(name_, is_new_number_ ? free : std::max(1, free - 1));
+  io::check_result_folder(path_);
   if (options.resume && !fs::exists(path_ / "checkpoint.h5")) {
     throw base::UserError("error: " + path_.string() +
                           " holds no checkpoint.h5 to resume from; name the run's folder with -o");
@@ -98,8 +97,8 @@ void OutputFolder::open() {
 }
 
 void OutputFolder::make() {
-  if (!is_new_number_) return io::make_folder(path_);
-  io::make_folder(path_.parent_path());
+  if (!is_new_number_) return io::make_result_folder(path_);
+  io::make_result_folder(path_.parent_path());
   std::error_code problem;
   // Another run may have taken the number while this one was read.
   while (!fs::create_directory(path_, problem) && !problem) {

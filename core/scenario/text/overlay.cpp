@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/text/overlay.hpp"
 
+#include "base/shell_word.hpp"
 #include "scenario/interactions/pair_list.hpp"
 #include "scenario/text/suggest.hpp"
 
@@ -287,6 +288,13 @@ void set_path(Node& root, const std::string& path, Node value, const Mark& here,
 void apply_override(Node& root, const Override& override, Diagnostics& diagnostics) {
   const Mark here{"--set " + printable(override.path), 0, 0};
   diagnostics.add_file(here.file);
+  // Includes have been read by now; and a file that lies under the scenario is none that is set.
+  if (override.path == "include" || override.path.starts_with("include[")) {
+    diagnostics.error(here, "a file cannot be included by a setting: use --set-file " +
+                                base::shell_word(printable(override.value)) +
+                                ", which lies over the scenario");
+    return;
+  }
   auto value = parse_path(override.path) ? parse_yaml(override.value, here.file, true, diagnostics)
                                          : std::optional(Node{});
   if (!value) return;

@@ -146,6 +146,14 @@ class TreeBuilder final : public YAML::EventHandler {
       diagnostics_.error(node.where, "a key must be a word, not " + kind_text(node));
       return;
     }
+    if (node.is_word("<<")) {
+      parent.is_key_usable = false;
+      diagnostics_.error(node.where,
+                         "YAML's merge keys (<<) are not supported: an interaction takes the laws "
+                         "of another with 'like', a scenario the keys of another file with "
+                         "'include'; a whole value is repeated with an alias (*name)");
+      return;
+    }
     if (const Entry* first = parent.node.find(parent.key)) {
       parent.is_key_usable = false;
       std::string text = "duplicate key '" + printable(parent.key) + "'";

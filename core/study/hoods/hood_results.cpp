@@ -2,6 +2,7 @@
 #include "study/hoods/hood_results.hpp"
 
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "dust/sdk/sampling.hpp"
 #include "io/atomic_file.hpp"
 #include "report/highlights.hpp"
@@ -259,7 +260,8 @@ std::vector<fs::path> finished_points(const fs::path& study) {
     throw base::UserError(table.string() + ":" + std::to_string(first_missing) + ": error: " +
                           std::to_string(missing) + " of " + std::to_string(folders.size()) +
                           " points have not finished: engine study " +
-                          (study / "study.yaml").string() + " -o " + study.string() + " --resume");
+                          base::shell_word((study / "study.yaml").string()) + " -o " +
+                          base::shell_word(study.string()) + " --resume");
   }
   return folders;
 }

@@ -2,6 +2,7 @@
 #include "study/hoods/hood_study.hpp"
 
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "base/text.hpp"
 #include "preflight/derived.hpp"
 #include "report/highlights.hpp"
@@ -65,7 +66,8 @@ void check_state(const FinishedRun& run) {
     refuse(summary + ":1",
            "the run has not finished, and what a hood catches is tried from its last state: engine "
            "run " +
-               (run.folder / "scenario.yaml").string() + " -o " + folder + " --resume");
+               base::shell_word((run.folder / "scenario.yaml").string()) + " -o " +
+               base::shell_word(folder) + " --resume");
   }
   if (fs::exists(run.folder / "checkpoint.h5")) return;
   refuse((run.folder / "checkpoint.h5").string() + ":1",

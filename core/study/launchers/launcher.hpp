@@ -54,7 +54,7 @@ void check_slurm();
 std::vector<std::string> run_arguments(const PointStore& store, const Resources& resources,
                                        const Point& point);
 
-/// Catches SIGINT and SIGTERM while it lives.
+/// Catches the signals that ask for an end (base::catch_end_signals) while it lives.
 class SignalGuard {
  public:
   SignalGuard();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/launchers/launcher.hpp"
 
+#include "base/end_signals.hpp"
 #include "base/error.hpp"
 
 #include <fcntl.h>
@@ -154,13 +155,9 @@ std::vector<std::string> run_arguments(const PointStore& store, const Resources&
 
 SignalGuard::SignalGuard() {
   g_signal = 0;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  base::catch_end_signals(on_signal);
 }
-SignalGuard::~SignalGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-}
+SignalGuard::~SignalGuard() { base::release_end_signals(); }
 int SignalGuard::caught() { return static_cast<int>(g_signal); }
 
 std::unique_ptr<Launcher> make_local_launcher(const PointStore& store, const Resources& resources) {

@@ -171,6 +171,16 @@ TEST_CASE("a frame that is missing before the checkpoint shall be explained") {
   fs::resize_file(folder.path() / "frames" / "000001.h5", 100);
   CHECK_THROWS_AS(open_results(folder.path(), 3), base::UserError);
   CHECK_THROWS_AS(open_results(folder.path(), 4), base::UserError);
+  // The state is whole: it goes on elsewhere, and only then is it given up.
+  std::string problem;
+  try {
+    open_results(folder.path(), 3);
+  } catch (const base::UserError& e) {
+    problem = e.what();
+  }
+  const auto way = problem.find("--set start_from=" + folder.path().string());
+  CHECK_MESSAGE(way != std::string::npos, problem);
+  CHECK(way < problem.find("--force"));
 }
 
 TEST_CASE("the results shall be moved to another folder as a whole") {

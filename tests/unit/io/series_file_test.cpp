@@ -145,3 +145,21 @@ TEST_CASE("a text shall be replaced whole and leave nothing beside it") {
   CHECK(files == 1);
   CHECK_THROWS_AS(dust::io::write_text(folder.path() / "no" / "folder", "x"), dust::base::RunError);
 }
+
+TEST_CASE("rows that are missing before the checkpoint shall be told with how the state goes on") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "series.csv";
+  {
+    SeriesFile file(path, -1);
+    append(file, 0.0, 1.0);
+  }
+  std::string problem;
+  try {
+    SeriesFile file(path, 2);
+  } catch (const dust::base::UserError& e) {
+    problem = e.what();
+  }
+  const auto way = problem.find("--set start_from=" + folder.path().string());
+  CHECK_MESSAGE(way != std::string::npos, problem);
+  CHECK(way < problem.find("--force"));
+}

@@ -307,6 +307,15 @@ TEST_CASE("damaged side files shall be named in the report, not end it") {
   CHECK(holds(notes[1], "results.h5 cannot be read"));
 }
 
+TEST_CASE("frames that are missing shall be told, on the page and to whoever makes it") {
+  const RunFolder folder;
+  fill(folder);
+  CHECK(write_report(folder.path()).empty());
+  folder.write("results.h5", "not an HDF5 file");
+  CHECK(write_report(folder.path()) ==
+        std::vector<std::string>{"results.h5 cannot be read: the pictures are missing."});
+}
+
 TEST_CASE("a folder that is no run shall be refused with a remedy") {
   const RunFolder folder;
   const auto message = [](const std::filesystem::path& path) -> std::string {

@@ -77,6 +77,16 @@ TEST_CASE("what YAML misses shall be told with what to look for") {
         std::string::npos);
 }
 
+TEST_CASE("a merge key shall be told to be none, with what does the same") {
+  const Folder folder;
+  const auto lines =
+      problems(folder.write("s.yaml", "materials:\n  a: &a {density: 1}\n  b:\n    <<: *a\n"));
+  REQUIRE(!lines.empty());
+  CHECK(lines[0].starts_with("s.yaml:4:5: error: YAML's merge keys (<<) are not supported"));
+  CHECK(lines[0].find("'like'") != std::string::npos);
+  CHECK(joined(lines).find("unknown key '<<'") == std::string::npos);
+}
+
 TEST_CASE("a tab that indents a line shall be told where it stands, with the remedy") {
   const Folder folder;
   const auto message_of = [&](const std::string& text) {
@@ -397,6 +407,12 @@ TEST_CASE("a domain or steps that contradict each other shall be told") {
         "s.yaml:2:67: error: time.dem_step: 0.002 s is longer than fluid_step, 0.001 s");
   check("end: 1 s", "end: 0.1 ms",
         "s.yaml:2:13: error: time.end: 0.0001 s is shorter than one fluid_step, 0.001 s");
+  check("end: 1 s", "end: 1e300",
+        "s.yaml:2:13: error: time.end: 1e+300 s is more than 1e15 times fluid_step, 0.001 s, which "
+        "no run reaches: give a shorter time or a longer step");
+  check("output_every: 20 ms", "output_every: 1e300",
+        "s.yaml:2:50: error: time.output_every: 1e+300 s is more than 1e15 times fluid_step, 0.001 "
+        "s, which no run reaches: give a shorter time or a longer step");
   check("cells: [20, 2, 10]", "cells: [500, 2, 10]",
         "s.yaml:39:18: error: voidage: the largest grain is 2.5 of the smallest cell's edges wide; "
         "'divided' is valid up to 1: take fewer cells or another rule");

@@ -58,6 +58,16 @@ TEST_CASE("a setting of an unknown path shall be refused with the nearest one") 
   CHECK(one("time.end", "[1").find("not valid YAML") != std::string::npos);
 }
 
+TEST_CASE("a file that is included by a setting shall be refused with the option that does it") {
+  for (const std::string path : {"include", "include[0]"}) {
+    const auto lines = problems(transfer_point(), {{path, "other.yaml"}});
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0] == "--set " + path +
+                          ": error: a file cannot be included by a setting: use --set-file "
+                          "other.yaml, which lies over the scenario");
+  }
+}
+
 TEST_CASE("files of settings shall lie over the scenario, single settings over them") {
   const Folder folder;
   const auto over = folder.write("over.yaml", "time: {end: 3 s}\nfluid: {density: 1.3}\n");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/shell_word.hpp"
 #include "base/text.hpp"
 #include "commands.hpp"
 #include "watch/run_state.hpp"
@@ -19,14 +20,18 @@ double seconds_since(Clock::time_point begin) {
 
 /// 0 = finished.
 int print_end(const std::string& folder, const RunState& state) {
+  const std::string quoted = base::shell_word(folder);
   if (state.status == "finished") {
-    std::cout << "finished: " << state_text(state) << "; engine report " << folder << '\n';
+    std::cout << "finished: " << state_text(state) << "; engine report " << quoted << '\n';
     return 0;
   }
   // A killed run leaves the summary of before, or none.
   const bool is_failed = state.status == "failed" && !state.reason.empty();
+  const bool can_go_on = std::filesystem::exists(std::filesystem::path(folder) / "checkpoint.h5");
   std::cout << (is_failed ? "failed: " + state.reason : "stopped") << " at " << state_text(state)
-            << "; go on with --resume -o " << folder << '\n';
+            << (can_go_on ? "; go on with --resume -o "
+                          : " before its first checkpoint; start again with --force -o ")
+            << quoted << '\n';
   return 1;
 }
 
