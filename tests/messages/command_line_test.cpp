@@ -108,9 +108,10 @@ TEST_CASE("output that a full disk takes shall be no success") {
                                     " > /dev/full 2> " + err.string())
                                        .c_str());
     CHECK(WEXITSTATUS(status) == 1);
-    CHECK(text_of(err) ==
-          "error: standard output cannot be written: No space left on device: what was printed is "
-          "not whole\n");
+    CHECK(
+        text_of(err) ==
+        "error: standard output cannot be written, and what was printed is not whole: is its disk "
+        "full?\n");
     fs::remove(err);
   }
 }

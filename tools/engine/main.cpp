@@ -10,9 +10,7 @@
 #include "scenario/text/suggest.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 
@@ -65,13 +63,11 @@ int report(const CLI::App& app, const CLI::ParseError& problem) {
 /// theirs is in their folder, and they go on without anybody who reads along.
 int with_output_checked(const CLI::App& app, int status) {
   const bool is_progress = app.got_subcommand("run") || app.got_subcommand("study");
-  errno = 0;
   std::cout.flush();
   const bool is_flushed = std::fflush(stdout) == 0 && std::cout.good() && std::ferror(stdout) == 0;
   if (is_flushed || is_progress || status != 0) return status;
-  std::cerr << "error: standard output cannot be written"
-            << (errno != 0 ? std::string(": ") + std::strerror(errno) : "")
-            << ": what was printed is not whole\n";
+  std::cerr << "error: standard output cannot be written, and what was printed is not whole: is "
+               "its disk full?\n";
   return k_failed;
 }
 
