@@ -313,6 +313,22 @@ TEST_CASE("check shall warn of cells far from cubic and of momentum set III") {
                 text);
 }
 
+TEST_CASE("check shall draw the set-up as a picture where one is asked for") {
+  const fs::path file = fs::temp_directory_path() / "dust_setup.svg";
+  const std::string command = "check " + k_scenario + " -o " + file.string();
+  fs::remove(file);
+  CHECK(engine(command).status == 0);
+  const std::string picture = text_of(file);
+  CHECK(picture.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""));
+  CHECK(picture.find("<title>belt</title>") != std::string::npos);
+  CHECK(picture.ends_with("</svg>\n"));
+  CHECK(engine(command).status == 0);  // its own
+  std::ofstream(file) << "<svg>mine</svg>";
+  CHECK(engine(command).status == 2);
+  CHECK(text_of(file) == "<svg>mine</svg>");
+  fs::remove(file);
+}
+
 TEST_CASE("check shall draw the set-up") {
   const fs::path file = fs::temp_directory_path() / "dust_setup.html";
   fs::remove(file);
@@ -333,7 +349,7 @@ TEST_CASE("check shall draw the set-up") {
   CHECK(data["check"]["grains"].is_number());
   CHECK(data["check"]["smallest_step_s"].get<double>() > 0.0);
   CHECK(engine("check " + k_scenario + " -o /not/there.html").status == 2);
-  const Outcome picture = engine("check " + k_scenario + " -o setup.svg");
+  const Outcome picture = engine("check " + k_scenario + " -o setup.png");
   CHECK(picture.status == 2);
   CHECK(picture.err.find("give it a name that ends with .html") != std::string::npos);
 }

@@ -2,6 +2,7 @@
 #include "base/text.hpp"
 #include "check/check_summary.hpp"
 #include "check/setup_page.hpp"
+#include "check/setup_picture.hpp"
 #include "commands.hpp"
 #include "page_name.hpp"
 #include "preflight/body_survey.hpp"
@@ -16,6 +17,16 @@
 
 namespace dust::engine {
 
+namespace {
+
+bool is_picture(const std::string& name) { return name.ends_with(".svg"); }
+
+std::string output_problem(const std::string& name) {
+  return is_picture(name) ? picture_name_problem(name) : page_name_problem(name);
+}
+
+}  // namespace
+
 void add_check(CLI::App& app, int&) {
   struct Arguments {
     ScenarioArguments scenario;
@@ -28,9 +39,10 @@ void add_check(CLI::App& app, int&) {
   arguments->scenario.add_to(*command);
   command
       ->add_option("-o,--output", arguments->page,
-                   "The page of the set-up: from the side and in three dimensions")
+                   "The page of the set-up: from the side and in three dimensions; SETUP.svg: a "
+                   "picture from the side alone")
       ->type_name("SETUP.html")
-      ->check(page_name_problem);
+      ->check(output_problem);
   command->add_flag("--json", arguments->as_json, "Steps, sizes and cost as JSON");
   command->footer(
       "Examples:\n"
@@ -62,7 +74,9 @@ void add_check(CLI::App& app, int&) {
     }
     if (!arguments->page.empty()) {
       const std::string numbers = check_json(result.setup, result.dust, derived, survey, learnt);
-      write_file(arguments->page, setup_page(result.setup, result.dust, *registry, numbers));
+      write_file(arguments->page, is_picture(arguments->page)
+                                      ? setup_picture(result.setup)
+                                      : setup_page(result.setup, result.dust, *registry, numbers));
       if (!arguments->as_json) std::cout << "drawn in " << arguments->page << '\n';
     }
   });

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "setup/setup.hpp"
+
+#include <string>
+
+namespace dust::engine {
+
+/// The set-up from the side as an SVG, for documents: domain, bodies in outline and cut in the
+/// middle, each with its name. The page (setup_page.hpp) shows more.
+std::string setup_picture(const scenario::Setup& setup);
+
+/// What is wrong with a name for it; empty where nothing is. Files that are no such picture are not
+/// overwritten.
+std::string picture_name_problem(const std::string& name);
+
+}  // namespace dust::engine
