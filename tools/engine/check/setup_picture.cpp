@@ -18,7 +18,7 @@ constexpr const char* k_maker = "<!-- set-up drawn by engine check -->";
 constexpr double k_longer_side = 1000.0;  ///< units of the picture
 constexpr double k_margin = 20.0;
 
-std::string escaped(const std::string& text) {
+std::string xml_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '&') {
@@ -58,7 +58,7 @@ class Side {
 
 std::string body_group(const Side& side, const std::string& name, const nlohmann::json& segments,
                        const nlohmann::json& section) {
-  std::string text = "<g><title>" + escaped(name) + "</title>\n";
+  std::string text = "<g><title>" + xml_text(name) + "</title>\n";
   for (const auto& r : section) {
     const double low_x = r[0], low_z = r[1], high_x = r[2], high_z = r[3];
     text += R"(<rect fill="#bbb" shape-rendering="crispEdges" x=")" + side.x(low_x) + "\" y=\"" +
@@ -82,7 +82,7 @@ std::string setup_picture(const scenario::Setup& setup) {
   const std::string size =
       "width=\"" + Side::text(side.width()) + "\" height=\"" + Side::text(side.height()) + "\"";
   std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" " + side.frame() + ">\n" + k_maker +
-                     "\n<title>" + escaped(setup.name) +
+                     "\n<title>" + xml_text(setup.name) +
                      "</title>\n<clipPath id=\"domain\"><rect " + size +
                      "/></clipPath>\n<g clip-path=\"url(#domain)\">\n";
   const auto outline = report::outline_of(setup.domain, bodies);
