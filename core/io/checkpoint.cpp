@@ -8,6 +8,7 @@
 #include "io/scenario_leaves.hpp"
 #include "io/stored_state.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string_view>
@@ -21,7 +22,9 @@ namespace {
 constexpr std::int64_t k_checkpoint_format = 7;
 constexpr const char* k_format = "format";
 constexpr const char* k_scenario = "resolved_yaml";
+constexpr const char* k_inputs = "input_files";
 constexpr const char* k_parts = "parts";
+constexpr const char* k_start = "start_from";
 
 std::string in_part(std::string_view group, std::string_view name) {
   return std::string(k_parts) + "/" + std::string(group) + "/" + std::string(name);
@@ -96,16 +99,41 @@ std::string read_string(hid_t file, const std::string& name) {
   return {bytes.begin(), bytes.end()};
 }
 
+/// The files as one text: each as its digest, a space, its name and a zero, which no name holds.
+std::string inputs_text(const std::vector<InputFile>& inputs) {
+  std::string text;
+  for (const InputFile& input : inputs) {
+    text += input.sha256 + ' ' + input.written;
+    text += '\0';
+  }
+  return text;
+}
+
+std::vector<InputFile> inputs_of_text(std::string_view text) {
+  std::vector<InputFile> inputs;
+  while (!text.empty()) {
+    const std::string_view entry = text.substr(0, text.find('\0'));
+    const std::size_t space = std::min(entry.find(' '), entry.size() - 1);
+    inputs.push_back({std::string(entry.substr(space + 1)), std::string(entry.substr(0, space))});
+    text.remove_prefix(std::min(entry.size() + 1, text.size()));
+  }
+  return inputs;
+}
+
 }  // namespace
 
 void write_checkpoint(
-    const std::filesystem::path& file, const std::string& resolved_yaml,
+    const std::filesystem::path& file, const ScenarioIdentity& scenario,
     const std::vector<std::pair<std::string, std::function<void(sdk::ArchiveWriter&)>>>& parts) {
   const QuietHdf5 quiet;
   Handle out = create_file(temporary_name(file), true);
   write_attribute(out.get(), k_format, k_checkpoint_format);
-  write_array(out.get(), k_scenario, H5T_NATIVE_CHAR, resolved_yaml.data(), {resolved_yaml.size()},
-              Storage::checked, {"1", "the scenario as run"});
+  const auto write_string = [&](const char* name, const std::string& text, const char* what) {
+    write_array(out.get(), name, H5T_NATIVE_CHAR, text.data(), {text.size()}, Storage::checked,
+                {"1", what});
+  };
+  write_string(k_scenario, scenario.resolved_yaml, "the scenario as run");
+  write_string(k_inputs, inputs_text(scenario.inputs), "files that it reads, with their SHA-256");
   create_group(out.get(), k_parts);
   for (const auto& [name, save] : parts) {
     GroupWriter writer(out.get(), name);
@@ -128,7 +156,11 @@ StoredState::StoredState(std::filesystem::path file, std::string remedy)
     if (format.size() != 1 || format[0] != static_cast<double>(k_checkpoint_format)) {
       refuse("a checkpoint of another version");
     }
-    resolved_yaml_ = read_string(open_->file.get(), k_scenario);
+    scenario_.resolved_yaml = read_string(open_->file.get(), k_scenario);
+    // Checkpoints from before it was kept do not say what stood in the files.
+    if (has_dataset(open_->file.get(), k_inputs)) {
+      scenario_.inputs = inputs_of_text(read_string(open_->file.get(), k_inputs));
+    }
   } catch (const base::RunError& e) {
     refuse(std::string("damaged checkpoint: ") + e.what());
   }
@@ -172,8 +204,58 @@ void keep_checkpoint(const std::filesystem::path& file, const std::filesystem::p
   move_into_place(as, false);
 }
 
-void read_checkpoint(
-    const std::filesystem::path& file, const std::string& resolved_yaml,
+namespace {
+
+std::string short_digest(const std::string& sha256) { return "sha256 " + sha256.substr(0, 12); }
+
+/// One line for each file in which something else stands than when the checkpoint was written.
+void refuse_other_files(const std::filesystem::path& checkpoint,
+                        const std::vector<ScenarioLeaves::FileChange>& files) {
+  std::string lines;
+  for (const ScenarioLeaves::FileChange& file : files) {
+    if (!file.is_other() || file.path == k_start) continue;
+    lines += (lines.empty() ? "error: " : "\nerror: ") + checkpoint.string() + ": " + file.path +
+             ": " + file.now + " is not the file that the run began with" +
+             (file.then == file.now ? std::string() : ", " + file.then) + " (" +
+             short_digest(file.content_then) + " then, " + short_digest(file.content_now) +
+             " now): one run would mix both; put the file of then in its place to go on, or start "
+             "again with --force or another -o";
+  }
+  if (!lines.empty()) throw base::UserError(lines);
+}
+
+void note_files(const std::vector<ScenarioLeaves::FileChange>& files, Resumption& resumption) {
+  for (const ScenarioLeaves::FileChange& file : files) {
+    if (file.path == k_start && file.is_other()) {
+      resumption.warnings.push_back(
+          "start_from: another state than the run began with stands in " + file.now + " (" +
+          short_digest(file.content_then) + " then, " + short_digest(file.content_now) +
+          " now): the run goes on from its own checkpoint; begun anew it would differ");
+    } else if (file.is_moved()) {
+      resumption.remarks.push_back(file.path + ": " + file.now + " in place of " + file.then +
+                                   ", with the same content");
+    } else if (file.content_then.empty()) {
+      resumption.remarks.push_back(file.path + ": the checkpoint, of an older version, does not " +
+                                   "say what stood in " + file.then);
+    }
+  }
+}
+
+/// What the run goes on with: the files as they are, but the state that it began with as it was.
+std::vector<InputFile> inputs_to_keep(const std::vector<ScenarioLeaves::FileChange>& files,
+                                      std::vector<InputFile> inputs) {
+  for (const ScenarioLeaves::FileChange& file : files) {
+    if (file.path != k_start) continue;
+    std::erase_if(inputs, [&](const InputFile& input) { return input.written == file.now; });
+    if (!file.content_then.empty()) inputs.push_back({file.now, file.content_then});
+  }
+  return inputs;
+}
+
+}  // namespace
+
+Resumption read_checkpoint(
+    const std::filesystem::path& file, const ScenarioIdentity& scenario,
     const std::vector<std::pair<std::string, std::function<void(sdk::ArchiveReader&)>>>& parts) {
   const std::string start = "error: " + file.string();
   if (!std::filesystem::exists(file)) {
@@ -182,9 +264,18 @@ void read_checkpoint(
   const std::string remedy = "start again with --force";
   const StoredState state(file, remedy);
   std::string difference;
+  std::vector<ScenarioLeaves::FileChange> files;
   try {
-    difference = ScenarioLeaves(state.resolved_yaml())
-                     .differences(ScenarioLeaves(resolved_yaml), k_free_on_resume);
+    const ScenarioLeaves then(state.resolved_yaml(), state.inputs());
+    const ScenarioLeaves now(scenario.resolved_yaml, scenario.inputs);
+    files = now.files_since(then);
+    std::vector<std::string_view> ignored(k_free_on_resume.begin(), k_free_on_resume.end());
+    for (const ScenarioLeaves::FileChange& f : files) {
+      // Nothing is read from there again, whatever has become of that run.
+      if (f.path == k_start && f.then == f.now) ignored.emplace_back(k_start);
+      if (f.is_other() && f.path != k_start) ignored.emplace_back(f.path);
+    }
+    difference = then.differences(now, ignored);
   } catch (const base::RunError& e) {
     throw base::UserError(start + ": damaged checkpoint: " + e.what() + "; " + remedy);
   }
@@ -194,7 +285,12 @@ void read_checkpoint(
                           "checkpoint_every, keep_every) may change when a run is resumed; "
                           "start_from takes the state into another scenario");
   }
+  refuse_other_files(file, files);
   state.read(parts);
+  Resumption resumption;
+  note_files(files, resumption);
+  resumption.inputs = inputs_to_keep(files, scenario.inputs);
+  return resumption;
 }
 
 }  // namespace dust::io

@@ -4,6 +4,7 @@
 #include "bodies/body_set.hpp"
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "io/input_files.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -109,14 +110,15 @@ class SeriesFile {
 /// Writes a checkpoint to a temporary file, syncs it and renames it into place. `parts` are
 /// (group name, save function).
 void write_checkpoint(
-    const std::filesystem::path& file, const std::string& resolved_yaml,
+    const std::filesystem::path& file, const ScenarioIdentity& scenario,
     const std::vector<std::pair<std::string, std::function<void(sdk::ArchiveWriter&)>>>& parts);
 
 /// Reads a checkpoint; throws base::UserError when it is missing, damaged or of another scenario
-/// (`resolved_yaml` differs in anything but time.end and how often is written; the message shows
-/// the first difference).
-void read_checkpoint(
-    const std::filesystem::path& file, const std::string& resolved_yaml,
+/// (`scenario` differs in anything but time.end and how often is written, or other things stand in
+/// the files that it reads; the message shows the first difference). The state that the run began
+/// with is no such file: it is not read again.
+Resumption read_checkpoint(
+    const std::filesystem::path& file, const ScenarioIdentity& scenario,
     const std::vector<std::pair<std::string, std::function<void(sdk::ArchiveReader&)>>>& parts);
 
 /// SHA-256, streaming.

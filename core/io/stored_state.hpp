@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dust/sdk/archive.hpp"
+#include "io/input_files.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -26,7 +27,9 @@ class StoredState {
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   /// The scenario of the run that wrote it.
-  [[nodiscard]] const std::string& resolved_yaml() const { return resolved_yaml_; }
+  [[nodiscard]] const std::string& resolved_yaml() const { return scenario_.resolved_yaml; }
+  /// What stood in the files that it read; nothing in checkpoints from before that was kept.
+  [[nodiscard]] const std::vector<InputFile>& inputs() const { return scenario_.inputs; }
   /// Whether the part was written with this column.
   [[nodiscard]] bool has(const std::string& part, const std::string& column) const;
   /// Gives each part to whoever wants it, in this order. Throws base::UserError.
@@ -39,7 +42,7 @@ class StoredState {
   std::unique_ptr<Open> open_;
   std::filesystem::path file_;
   std::string remedy_;
-  std::string resolved_yaml_;
+  ScenarioIdentity scenario_;
 };
 
 /// Keeps the checkpoint `file` under another name, too; replaces what has that name. Throws

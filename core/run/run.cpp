@@ -18,6 +18,7 @@
 #include "report/report.hpp"
 #include "run/branch/branch.hpp"
 #include "run/branch/used_models.hpp"
+#include "run/folder/input_digests.hpp"
 #include "run/folder/log_header.hpp"
 #include "run/folder/output_folder.hpp"
 #include "run/progress/live_report.hpp"
@@ -112,16 +113,16 @@ struct Intervals {
 /// The files of one run and the loop over fluid steps.
 class Run {
  public:
-  Run(Simulation& simulation, fs::path folder, std::string resolved, std::vector<UsedModel> models,
-      double keep_every)
+  Run(Simulation& simulation, fs::path folder, io::ScenarioIdentity scenario,
+      std::vector<UsedModel> models, double keep_every)
       : simulation_(simulation),
         folder_(std::move(folder)),
-        resolved_(std::move(resolved)),
+        scenario_(std::move(scenario)),
         models_(std::move(models)),
         steps_per_(simulation_.setup().time, keep_every) {}
 
   /// `end_where`: of time.end. Throws base::UserError where that has passed.
-  void resume(const scenario::Mark& end_where) {
+  io::Resumption resume(const scenario::Mark& end_where) {
     refuse_changed_models(folder_ / "checkpoint.h5", models_);
     auto parts = simulation_.load_parts();
     parts.emplace_back("files", [this](sdk::ArchiveReader& a) {
@@ -130,10 +131,11 @@ class Run {
       rows_ = a.integer("rows");
       times_.load(a);
     });
-    io::read_checkpoint(folder_ / "checkpoint.h5", resolved_, parts);
+    io::Resumption resumption = io::read_checkpoint(folder_ / "checkpoint.h5", scenario_, parts);
+    scenario_.inputs = resumption.inputs;
     is_resumed_ = true;
     const double end = simulation_.setup().time.end, time = simulation_.time();
-    if (end >= time * (1.0 - 1e-9)) return;
+    if (end >= time * (1.0 - 1e-9)) return resumption;
     const auto seconds = [](double value) { return scenario::number_text(value) + " s"; };
     throw base::UserError(scenario::place(end_where) + ": error: time.end: " + seconds(end) +
                           " is before the time that the run in " + folder_.string() +
@@ -160,7 +162,7 @@ class Run {
     for (const std::string& line : facts_.log_header) base::log_info(line);
     // On the terminal they stand since the scenario was read.
     for (const std::string& warning : facts_.warnings) base::log_info(warning);
-    io::write_text(folder_ / "scenario.yaml", resolved_);
+    io::write_text(folder_ / "scenario.yaml", scenario_.resolved_yaml);
     std::vector<std::string> materials;
     for (const auto& m : simulation_.setup().materials) materials.push_back(m.name);
     const auto& domain = simulation_.setup().domain;
@@ -431,7 +433,7 @@ class Run {
       times_.save(a, node_seconds(simulation_, times_.nodes_before()));
     });
     parts.emplace_back(k_models_part, [this](sdk::ArchiveWriter& a) { save_models(models_, a); });
-    io::write_checkpoint(folder_ / "checkpoint.h5", resolved_, parts);
+    io::write_checkpoint(folder_ / "checkpoint.h5", scenario_, parts);
     if (steps_per_.is_kept(simulation_.steps_done())) {
       io::keep_checkpoint(folder_ / "checkpoint.h5", kept_checkpoint(folder_, simulation_.time()));
     }
@@ -449,7 +451,7 @@ class Run {
 
   Simulation& simulation_;
   fs::path folder_;
-  std::string resolved_;
+  io::ScenarioIdentity scenario_;
   std::vector<UsedModel> models_;
   bool is_resumed_ = false;
   bool is_disk_bad_ = false;  ///< a file could not be written
@@ -515,8 +517,8 @@ StartFacts start_facts(const Branch& branch) {
           .sensors = branch.sensors_going_on()};
 }
 
-RunFacts facts_of(const scenario::ReadResult& read, const registry::Registry& registry,
-                  const RunOptions& options, int threads) {
+RunFacts facts_of(const scenario::ReadResult& read, const std::vector<io::InputFile>& inputs,
+                  const registry::Registry& registry, const RunOptions& options, int threads) {
   RunFacts facts;
   facts.threads = threads;
   facts.warnings = read.warnings;
@@ -526,8 +528,22 @@ RunFacts facts_of(const scenario::ReadResult& read, const registry::Registry& re
   io::Sha256 digest;
   digest.update(read.resolved_yaml.data(), read.resolved_yaml.size());
   facts.scenario_sha256 = digest.hex_digest();
+  facts.inputs = inputs;
   facts.log_header = log_header(read.setup, read.dust, registry, options, facts.scenario_sha256);
+  for (const io::InputFile& input : inputs) {
+    facts.log_header.push_back("input: " + input.written + ", sha256 " + input.sha256);
+  }
   return facts;
+}
+
+/// What differs from the run's beginning without being in the way.
+void note(const io::Resumption& resumption, RunFacts& facts) {
+  facts.inputs = resumption.inputs;
+  for (const std::string& remark : resumption.remarks) facts.log_header.push_back(remark);
+  for (const std::string& warning : resumption.warnings) {
+    base::log_warning(warning);
+    facts.warnings.push_back(warning);
+  }
 }
 
 /// The port of --live, before anything is written.
@@ -558,11 +574,12 @@ int run_scenario(const RunOptions& options) {
                                     static_cast<std::size_t>(threads));
 
   OutputFolder output(options, read.setup.name, inputs_of(options, read));
+  const std::vector<io::InputFile> inputs = InputDigests().of(read);
   std::optional<LiveReport> live;
   take_port(options, live);
   scenario::Diagnostics branching;
   std::optional<Branch> branch;
-  if (read.start.from && !options.resume) branch.emplace(read, registry, branching);
+  if (read.start.from && !options.resume) branch.emplace(read, inputs, registry, branching);
   branching.throw_errors();
   Branch* const origin = branch ? &*branch : nullptr;
   std::unique_ptr<Simulation> simulation;
@@ -579,7 +596,7 @@ int run_scenario(const RunOptions& options) {
     throw base::UserError(options.scenario.string() + ": error: " + e.what());
   }
   if (!options.resume) start(*simulation, origin);
-  RunFacts facts = facts_of(read, registry, options, threads);
+  RunFacts facts = facts_of(read, inputs, registry, options, threads);
   for (const std::string& warning : branching.warning_lines()) {
     base::log_warning(warning);
     facts.warnings.push_back(warning);
@@ -588,9 +605,9 @@ int run_scenario(const RunOptions& options) {
   branch.reset();  // the other run's particles
   output.open();
   const fs::path folder = output.path();
-  Run run(*simulation, folder, read.resolved_yaml, used_models(read, registry),
+  Run run(*simulation, folder, {read.resolved_yaml, inputs}, used_models(read, registry),
           read.start.keep_every);
-  if (options.resume) run.resume(read.start.end_where);
+  if (options.resume) note(run.resume(read.start.end_where), facts);
   base::catch_end_signals(on_signal);
   if (live) {
     live->begin(folder);

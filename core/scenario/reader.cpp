@@ -181,6 +181,7 @@ std::optional<ReadResult> read_tree(const Node& root, const fs::path& file,
   result.start = std::move(reading.start);
   result.references = std::move(reading.references);
   result.reference_curves = std::move(reading.reference_curves);
+  result.files = reading.models.files();
   result.resolved_yaml = k_resolved_heading + emit_yaml(reading.written);
   result.warnings = diagnostics.warning_lines();
   return result;

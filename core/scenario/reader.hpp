@@ -28,6 +28,7 @@ struct ReadResult {
   StartSetup start;
   std::vector<ReferenceSpec> references;         ///< of enabled sensors
   std::vector<ReferenceCurve> reference_curves;  ///< of enabled sensors
+  std::vector<std::string> files;     ///< that models read, as `resolved_yaml` names them
   std::string resolved_yaml;          ///< includes merged, overrides applied, defaults written out
   std::vector<std::string> warnings;  ///< "file:line:column: warning: ..."
 };

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace dust::scenario {
 
@@ -12,6 +13,7 @@ namespace dust::scenario {
 struct StartSpec {
   std::filesystem::path folder;  ///< of that run's results, absolute
   std::optional<double> time;    ///< [s] of the state; nothing: the newest
+  std::string written;           ///< both, as the resolved scenario has them
   Mark where;
 };
 

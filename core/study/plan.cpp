@@ -3,9 +3,11 @@
 
 #include "base/error.hpp"
 #include "io/run_files.hpp"
+#include "io/scenario_leaves.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/reader.hpp"
 #include "run/branch/origin.hpp"
+#include "run/folder/input_digests.hpp"
 #include "scenario/text/overlay.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
@@ -34,6 +36,20 @@ double begin_of(const scenario::StartSetup& start, const registry::Registry& reg
   if (!start.from) return 0.0;
   if (start.from->time || !run::has_origin(*start.from)) return start.from->time.value_or(0.0);
   return run::Origin(*start.from, registry).time();
+}
+
+/// What tells one run from another: its scenario, with what stands in the files that it reads.
+/// Where they lie does not count.
+std::string hash_of(const scenario::ReadResult& read, const std::vector<io::InputFile>& inputs) {
+  std::string sha256;
+  if (inputs.empty()) {
+    io::Sha256 digest;
+    digest.update(read.resolved_yaml.data(), read.resolved_yaml.size());
+    sha256 = digest.hex_digest();
+  } else {
+    sha256 = io::ScenarioLeaves(read.resolved_yaml, inputs).sha256();
+  }
+  return sha256.substr(0, k_hash_digits);
 }
 
 /// Interactions[0].contact.friction of a vector's component is noted under the vector.
@@ -103,6 +119,7 @@ struct Planner::Impl {
   std::optional<Node> plain;  ///< without
   std::uint64_t base_seed = 1;
   MeasureCheck measures;
+  run::InputDigests digests = {};
   std::set<std::string> reported;  ///< error lines
   std::vector<std::set<std::pair<int, int>>> axis_marks;
   std::set<std::size_t> reported_axes;
@@ -173,9 +190,7 @@ struct Planner::Impl {
     Point point;
     point.seed = seed;
     point.resolved_yaml = read->resolved_yaml;
-    io::Sha256 digest;
-    digest.update(read->resolved_yaml.data(), read->resolved_yaml.size());
-    point.hash = digest.hex_digest().substr(0, k_hash_digits);
+    point.hash = hash_of(*read, digests.of(*read));
     const auto derived =
         preflight::derive(read->setup, registry, read->dust, begin_of(read->start, registry));
     point.core_seconds = derived.cost.terms.seconds();

@@ -32,7 +32,7 @@ struct Point {
   std::vector<std::size_t> levels;  ///< one per axis
   std::int64_t replicate = 1;
   std::uint64_t seed = 0;
-  std::string hash;           ///< of the resolved scenario, 16 hexadecimal digits
+  std::string hash;           ///< of the resolved scenario and its files, 16 hexadecimal digits
   std::string resolved_yaml;  ///< what is run
   double core_seconds = 0.0;  ///< rough, for the order and the remaining time
   double memory_bytes = 0.0;  ///< rough

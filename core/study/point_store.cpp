@@ -87,7 +87,10 @@ fs::path PointStore::failure_of(const Point& point) const {
 
 void PointStore::prepare(const Point& point) const {
   fs::create_directories(folder_ / "points");
-  if (!fs::exists(scenario_of(point))) io::write_text(scenario_of(point), point.resolved_yaml);
+  // Files that it reads may lie elsewhere by now.
+  const fs::path file = scenario_of(point);
+  if (fs::exists(file) && io::read_text(file) == point.resolved_yaml) return;
+  io::write_text(file, point.resolved_yaml);
 }
 
 bool PointStore::has_checkpoint(const Point& point) const {

@@ -43,7 +43,7 @@ class PointStore {
   [[nodiscard]] std::filesystem::path results_of(const Point& point) const;
   [[nodiscard]] std::filesystem::path log_of(const Point& point) const;
 
-  /// Writes what the point runs, if it is not there.
+  /// Writes what the point runs, if it does not stand there so.
   void prepare(const Point& point) const;
   [[nodiscard]] bool has_checkpoint(const Point& point) const;
 

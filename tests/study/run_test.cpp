@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -301,4 +302,48 @@ TEST_CASE("a folder that holds a study shall be kept unless told otherwise") {
   CHECK(refused.status == 2);
   CHECK(refused.err.find("--resume") != std::string::npos);
   CHECK(refused.err.find("--force") != std::string::npos);
+}
+
+TEST_CASE("a study shall know its points by what stands in their files, wherever these lie") {
+  const TemporaryFolder folder;
+  const auto write_project = [](const fs::path& project, const std::string& height) {
+    fs::create_directories(project);
+    std::string base = read_file(k_here / "drop.yaml");
+    const std::string bed = "  bed: {model: file, material: sand, file: bed.csv}\n";
+    base.insert(base.find("fluid: none"), bed);
+    std::ofstream(project / "drop.yaml") << base;
+    std::ofstream(project / "bed.csv")
+        << "diameter [m],x [m],y [m],z [m]\n0.001,0,0," << height << "\n";
+    std::ofstream(project / "study.yaml")
+        << "base: drop.yaml\nvary: {emitters.feed.mass_flow: [1, 2 g/s]}\n"
+           "measure: {emitted: particles.emitted}\nrun: {jobs: 1, threads: 1}\n";
+  };
+  const fs::path out = folder / "out";
+  const auto hashes = [&] {
+    std::vector<std::string> all;
+    for (const auto& row : table_of(out)) all.push_back(row.at("hash"));
+    return all;
+  };
+  write_project(folder / "project", "0.012");
+  REQUIRE(engine({"study", folder / "project" / "study.yaml", "-o", out, "--quiet"}).status == 0);
+  const auto first = hashes();
+
+  // Moved to a longer name, with one point that is still to be run.
+  const fs::path moved = folder / "another place with quite a long name to see where lines break";
+  fs::rename(folder / "project", moved);
+  fs::remove_all(out / "points" / first[1]);
+  const auto on = engine({"study", moved / "study.yaml", "-o", out, "--resume"});
+  INFO(on.err);
+  REQUIRE(on.status == 0);
+  CHECK(hashes() == first);
+  CHECK(count_of(out, "finished") == 2);
+  CHECK(on.out.find(first[0]) == std::string::npos);
+  CHECK(on.out.find(first[1]) != std::string::npos);
+
+  // Another table under the same name: other points.
+  write_project(moved, "0.013");
+  REQUIRE(engine({"study", moved / "study.yaml", "-o", out, "--resume", "--quiet"}).status == 0);
+  for (const std::string& hash : hashes()) {
+    CHECK(std::find(first.begin(), first.end(), hash) == first.end());
+  }
 }

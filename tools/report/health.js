@@ -18,7 +18,7 @@ Dust.limit_texts = {
 };
 // Parts of the summary that have their own place on the page.
 Dust.shown_elsewhere = new Set(['scenario', 'version', 'status', 'threads', 'wall_s', 'cpu_s', 'simulated_s', 'dem_steps', 'fluid_steps', 'particle_steps', 'peak_rss_bytes', 'particles', 'real_particles',
-  'mass_kg', 'timers_s', 'timer_groups', 'state_sha256', 'sensors', 'reason', 'size_classes', 'plugins', 'build', 'warnings', 'references', 'scenario_sha256', 'huge_page_bytes', 'series', 'series_roles']);
+  'mass_kg', 'timers_s', 'timer_groups', 'state_sha256', 'sensors', 'reason', 'size_classes', 'plugins', 'build', 'warnings', 'references', 'scenario_sha256', 'input_files', 'huge_page_bytes', 'series', 'series_roles']);
 
 Dust.sections.health = ({summary, limits, notes, crushed}) => {
   const {p} = Dust;

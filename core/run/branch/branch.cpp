@@ -87,13 +87,13 @@ class Changed final : public sdk::ArchiveReader {
 
 }  // namespace
 
-Branch::Branch(const scenario::ReadResult& now, const registry::Registry& registry,
-               scenario::Diagnostics& diagnostics)
+Branch::Branch(const scenario::ReadResult& now, const std::vector<io::InputFile>& inputs,
+               const registry::Registry& registry, scenario::Diagnostics& diagnostics)
     : now_(now),
       registry_(registry),
       diagnostics_(diagnostics),
       origin_(*now.start.from, registry),
-      leaves_(now.resolved_yaml),
+      leaves_(now.resolved_yaml, inputs),
       changed_models_(changed_models(origin_.state(), used_models(now, registry))),
       is_same_(changed_models_.empty() &&
                origin_.leaves().first_difference(leaves_, k_free).empty()),

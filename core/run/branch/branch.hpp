@@ -27,10 +27,10 @@ namespace dust::run {
 /// sensors that are the same. The rest is told.
 class Branch {
  public:
-  /// Reads the other run's scenario; `now` and `registry` are kept by reference. What cannot be
-  /// goes to `diagnostics`.
-  Branch(const scenario::ReadResult& now, const registry::Registry& registry,
-         scenario::Diagnostics& diagnostics);
+  /// Reads the other run's scenario; `now` and `registry` are kept by reference, `inputs` is what
+  /// stands in the files of `now`. What cannot be goes to `diagnostics`.
+  Branch(const scenario::ReadResult& now, const std::vector<io::InputFile>& inputs,
+         const registry::Registry& registry, scenario::Diagnostics& diagnostics);
 
   [[nodiscard]] const Origin& origin() const { return origin_; }
   /// Whether the scenarios differ in nothing that the state depends on.

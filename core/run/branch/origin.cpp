@@ -56,18 +56,14 @@ std::vector<Kept> kept_in(const fs::path& folder) {
   throw base::UserError(scenario::place(start.where) + ": error: start_from: " + problem);
 }
 
-/// The newest state, or the kept one of the time that is asked for.
+/// Throws base::UserError where there is none.
 fs::path find_state(const scenario::StartSpec& start) {
   if (!has_origin(start)) {
     refuse(start, start.folder.string() +
                       " holds no checkpoint.h5: run that scenario first, with -o " +
                       start.folder.string());
   }
-  if (!start.time) return newest_of(start.folder);
-  for (const Kept& kept : kept_in(start.folder)) {
-    if (is_same_time(kept.time, *start.time)) return kept.file;
-  }
-  return newest_of(start.folder);
+  return *state_file(start);
 }
 
 /// The run has no state of the time that is asked for.
@@ -89,6 +85,15 @@ fs::path kept_checkpoint(const fs::path& folder, double time) {
   return folder / k_kept_folder / (base::digits_text(time, k_digits) + "_s.h5");
 }
 
+std::optional<fs::path> state_file(const scenario::StartSpec& start) {
+  if (!has_origin(start)) return std::nullopt;
+  if (!start.time) return newest_of(start.folder);
+  for (const Kept& kept : kept_in(start.folder)) {
+    if (is_same_time(kept.time, *start.time)) return kept.file;
+  }
+  return newest_of(start.folder);
+}
+
 bool has_origin(const scenario::StartSpec& start) {
   std::error_code none;
   return fs::is_regular_file(newest_of(start.folder), none);
@@ -105,7 +110,7 @@ std::vector<double> class_diameters_of(const io::StoredState& state) {
 Origin::Origin(const scenario::StartSpec& start, const registry::Registry& registry)
     : state_(std::make_unique<io::StoredState>(find_state(start), k_remedy)),
       scenario_(read_scenario(start, registry)),
-      leaves_(state_->resolved_yaml()),
+      leaves_(state_->resolved_yaml(), state_->inputs()),
       class_diameters_(class_diameters_of(*state_)) {
   state_->read({{"clock", [&](sdk::ArchiveReader& a) { steps_done_ = a.integer("steps_done"); }}});
   time_ = static_cast<double>(steps_done_) * scenario_.setup.time.fluid_step;

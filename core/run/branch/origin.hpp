@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ class Origin {
   double time_ = 0.0;
   std::vector<double> class_diameters_;
 };
+
+/// The checkpoint that `start_from` names; nothing where there is none yet.
+[[nodiscard]] std::optional<std::filesystem::path> state_file(const scenario::StartSpec& start);
 
 /// Whether there is a run to start from yet.
 [[nodiscard]] bool has_origin(const scenario::StartSpec& start);

@@ -3,6 +3,7 @@
 
 #include "run/branch/branch.hpp"
 #include "run/dust/hoods.hpp"
+#include "run/folder/input_digests.hpp"
 
 namespace dust::run {
 
@@ -18,7 +19,7 @@ std::optional<StartFacts> preview_start(const scenario::ReadResult& read,
                                          start.folder.string());
     return std::nullopt;
   }
-  Branch branch(read, registry, diagnostics);
+  Branch branch(read, InputDigests().of(read), registry, diagnostics);
   Models models = make_models(read.setup, registry);
   branch.add_diameters(models.class_diameters);
   const auto particles = make_particles(read.setup, models, read.dust);

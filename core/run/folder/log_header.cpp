@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/folder/log_header.hpp"
 
-#include "io/run_files.hpp"
+#include "io/input_files.hpp"
 #include "run/summary/summary_models.hpp"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <thread>
 
@@ -19,12 +18,8 @@ namespace dust::run {
 namespace {
 
 std::string file_sha256(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return "unknown";
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  io::Sha256 digest;
-  digest.update(bytes.data(), bytes.size());
-  return digest.hex_digest();
+  const std::string digest = io::content_sha256(file);
+  return digest.empty() ? "unknown" : digest;
 }
 
 std::string processor_name() {

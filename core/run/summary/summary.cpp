@@ -288,6 +288,10 @@ Json record_json(const Simulation& s, const RunFacts& facts) {
   j["series"] = series_columns(s);
   j["series_roles"] = series_roles(s);
   j["scenario_sha256"] = facts.scenario_sha256;
+  j["input_files"] = Json::array();
+  for (const io::InputFile& input : facts.inputs) {
+    j["input_files"].push_back({{"file", input.written}, {"sha256", input.sha256}});
+  }
   j["state_sha256"] = s.state_digest();
   j["build"] = {{"compiler", base::k_compiler},
                 {"processor", base::k_processor},

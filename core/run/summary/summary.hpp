@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "io/input_files.hpp"
 #include "run/audit/force_shares.hpp"
 #include "run/simulation.hpp"
 #include "setup/reference_curve.hpp"
@@ -41,6 +42,7 @@ struct RunFacts {
   std::vector<scenario::ReferenceCurve> reference_curves;
   const registry::Registry* registry = nullptr;  ///< where the models came from; null in tests
   std::string scenario_sha256;                   ///< of scenario.yaml as run
+  std::vector<io::InputFile> inputs;             ///< files that it reads
   std::optional<StartFacts> start;               ///< nothing: at 0 s
   std::vector<std::string> log_header;           ///< the first lines of run.log
 };

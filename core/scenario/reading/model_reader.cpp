@@ -149,7 +149,7 @@ bool ModelReader::check_name(const Node& node, const std::string& path, sdk::Ref
 }
 
 void ModelReader::find_files(const MapReader& reader, const sdk::ParameterSchema& schema,
-                             std::vector<sdk::Value>& values) const {
+                             std::vector<sdk::Value>& values) {
   namespace fs = std::filesystem;
   for (std::size_t n = 0; n < schema.size(); ++n) {
     const Entry* entry = reader.node().find(schema[n].name);
@@ -166,6 +166,7 @@ void ModelReader::find_files(const MapReader& reader, const sdk::ParameterSchema
       continue;
     }
     *text = file.string();
+    files_.push_back(*text);
   }
 }
 
@@ -192,7 +193,7 @@ bool ModelReader::check_references(const MapReader& reader, const sdk::Parameter
 }
 
 ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std::string& kind,
-                            bool is_enabled) const {
+                            bool is_enabled) {
   const auto names = offered(registry_, kind);
   const std::string available =
       names.empty() ? "no " + kind + " plugin was found; see 'engine plugins' and --plugin-path"
@@ -246,7 +247,7 @@ ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std
 }
 
 ReadModel ModelReader::read_optional(MapReader& reader, const std::string& key,
-                                     const std::string& kind) const {
+                                     const std::string& kind) {
   if (reader.optional(key) == nullptr) return {};
   return read(reader, key, kind);
 }

@@ -44,16 +44,18 @@ class ModelReader {
 
   /// The model that `key` of `reader` names; its parameters stand beside it.
   ReadModel read(MapReader& reader, const std::string& key, const std::string& kind,
-                 bool is_enabled = true) const;
+                 bool is_enabled = true);
   /// As above, where the key may be absent.
-  ReadModel read_optional(MapReader& reader, const std::string& key, const std::string& kind) const;
+  ReadModel read_optional(MapReader& reader, const std::string& key, const std::string& kind);
   /// Checks the names in `values`; false when one is unknown.
   bool check_references(const MapReader& reader, const sdk::ParameterSchema& schema,
                         const std::vector<sdk::Value>& values, bool is_enabled) const;
   /// Gives parameters that name files their full paths; tells those that are not there.
   void find_files(const MapReader& reader, const sdk::ParameterSchema& schema,
-                  std::vector<sdk::Value>& values) const;
+                  std::vector<sdk::Value>& values);
   [[nodiscard]] const ScenarioNames& names() const { return names_; }
+  /// Full paths of the files that the models read so far name.
+  [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
  private:
   bool check_name(const Node& node, const std::string& path, sdk::Refers what,
@@ -62,6 +64,7 @@ class ModelReader {
   const registry::Registry& registry_;
   const ScenarioNames& names_;
   Diagnostics& diagnostics_;
+  std::vector<std::string> files_;
 };
 
 }  // namespace dust::scenario

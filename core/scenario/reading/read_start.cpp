@@ -36,7 +36,7 @@ void read_start(Reading& reading, MapReader& top) {
                       kind_text(value));
     return;
   }
-  StartSpec start{.folder = {}, .time = {}, .where = value.where};
+  StartSpec start{.folder = {}, .time = {}, .written = {}, .where = value.where};
   std::string path = value.text;
   const std::size_t at = path.rfind(k_at);
   // A folder may have the character in its name.
@@ -55,9 +55,9 @@ void read_start(Reading& reading, MapReader& top) {
     path.resize(at);
   }
   start.folder = seen_from(value.where, path);
-  std::string written = start.folder.string();
-  if (start.time) written += k_at + number_text(*start.time) + " s";
-  add(reading.written, "start_from", written_value(written));
+  start.written = start.folder.string();
+  if (start.time) start.written += k_at + number_text(*start.time) + " s";
+  add(reading.written, "start_from", written_value(start.written));
   reading.start.from = std::move(start);
 }
 

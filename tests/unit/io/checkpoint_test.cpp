@@ -19,8 +19,8 @@ const std::string k_scenario =
     "name: belt\ntime:\n  end: 0.7\n  fluid_step: 0.001\nbodies:\n  belt:\n    speed: 0.8\n";
 
 void write(const std::filesystem::path& file, const std::string& yaml,
-           const std::vector<double>& values) {
-  io::write_checkpoint(file, yaml,
+           const std::vector<double>& values, const std::vector<io::InputFile>& inputs = {}) {
+  io::write_checkpoint(file, {yaml, inputs},
                        {{"run", [](sdk::ArchiveWriter& a) { a.integer("frames", 17); }},
                         {"sensors/lip", [&](sdk::ArchiveWriter& a) {
                            a.numbers("values", values);
@@ -31,7 +31,7 @@ void write(const std::filesystem::path& file, const std::string& yaml,
 
 std::vector<double> read(const std::filesystem::path& file, const std::string& yaml) {
   std::vector<double> values;
-  io::read_checkpoint(file, yaml,
+  io::read_checkpoint(file, {yaml, {}},
                       {{"run", [](sdk::ArchiveReader& a) { CHECK(a.integer("frames") == 17); }},
                        {"sensors/lip", [&](sdk::ArchiveReader& a) {
                           values = a.numbers("values");
@@ -132,7 +132,7 @@ TEST_CASE("a state that is not in the checkpoint shall be named") {
   write(file, k_scenario, {1});
   try {
     io::read_checkpoint(
-        file, k_scenario,
+        file, {k_scenario, {}},
         {{"sensors/new", [](sdk::ArchiveReader& a) { (void)a.numbers("values"); }}});
     FAIL("no error");
   } catch (const base::UserError& e) {
@@ -144,8 +144,65 @@ TEST_CASE("an error while saving shall leave the checkpoint before it in place")
   const TemporaryFolder folder;
   const auto file = folder.path() / "checkpoint.h5";
   write(file, k_scenario, {1, 2});
-  CHECK_THROWS(io::write_checkpoint(file, k_scenario, {{"run", [](sdk::ArchiveWriter&) {
-                                                          throw sdk::ModelError("not finite");
-                                                        }}}));
+  CHECK_THROWS(io::write_checkpoint(file, {k_scenario, {}}, {{"run", [](sdk::ArchiveWriter&) {
+                                                                throw sdk::ModelError("not finite");
+                                                              }}}));
   CHECK(read(file, k_scenario).size() == 2);
+}
+
+TEST_CASE("files of a scenario shall be the same by what stands in them, not by their names") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "checkpoint.h5";
+  const std::string then = "name: a\nbodies:\n  r:\n    file: /then/box.stl\n    unit: 0.001\n";
+  const std::string now = replaced(then, "/then/", "/now/");
+  const auto resumed = [&](const std::string& yaml, const std::string& name,
+                           const std::string& sha256) {
+    return io::read_checkpoint(file, {yaml, {{name, sha256}}}, {});
+  };
+  const auto message = [&](const std::string& yaml, const std::string& name,
+                           const std::string& sha256) -> std::string {
+    try {
+      resumed(yaml, name, sha256);
+    } catch (const base::UserError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  write(file, then, {1}, {{"/then/box.stl", "aaaa"}});
+  const auto same = resumed(then, "/then/box.stl", "aaaa");
+  CHECK(same.remarks.empty());
+  CHECK(same.inputs == std::vector<io::InputFile>{{"/then/box.stl", "aaaa"}});
+  const auto moved = resumed(now, "/now/box.stl", "aaaa");
+  REQUIRE(moved.remarks.size() == 1);
+  CHECK(moved.remarks[0] ==
+        "bodies.r.file: /now/box.stl in place of /then/box.stl, with the same content");
+  CHECK(message(then, "/then/box.stl", "bbbb")
+            .find("bodies.r.file: /then/box.stl is not the file that the run began with (sha256 "
+                  "aaaa then, sha256 bbbb now)") != std::string::npos);
+  CHECK(message(now, "/now/box.stl", "bbbb").find(", /then/box.stl (sha256 aaaa then") !=
+        std::string::npos);
+  CHECK(message(replaced(now, "0.001", "1"), "/now/box.stl", "bbbb").find("bodies.r.unit: 0.001") !=
+        std::string::npos);
+
+  // Of older checkpoints, which do not say, the names count.
+  write(file, then, {1});
+  const auto unknown = resumed(then, "/then/box.stl", "aaaa");
+  REQUIRE(unknown.remarks.size() == 1);
+  CHECK(unknown.remarks[0].find("does not say what stood in /then/box.stl") != std::string::npos);
+  CHECK(message(now, "/now/box.stl", "aaaa").find("belongs to another scenario") !=
+        std::string::npos);
+}
+
+TEST_CASE("the state that a run began with shall be kept as it was then") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "checkpoint.h5";
+  const std::string yaml = "name: a\nstart_from: /base\n";
+  write(file, yaml, {1}, {{"/base", "aaaa"}});
+  const auto changed = io::read_checkpoint(file, {yaml, {{"/base", "bbbb"}}}, {});
+  REQUIRE(changed.warnings.size() == 1);
+  CHECK(changed.inputs == std::vector<io::InputFile>{{"/base", "aaaa"}});
+  // That run may be gone.
+  const auto gone = io::read_checkpoint(file, {yaml, {}}, {});
+  CHECK(gone.warnings.empty());
+  CHECK(gone.inputs == std::vector<io::InputFile>{{"/base", "aaaa"}});
 }
