@@ -232,11 +232,12 @@ void note_files(const std::vector<ScenarioLeaves::FileChange>& files, Resumption
           short_digest(file.content_then) + " then, " + short_digest(file.content_now) +
           " now): the run goes on from its own checkpoint; begun anew it would differ");
     } else if (file.is_moved()) {
-      resumption.remarks.push_back(file.path + ": " + file.now + " in place of " + file.then +
-                                   ", with the same content");
+      resumption.log_lines.push_back(file.path + ": " + file.now + " in place of " + file.then +
+                                     ", with the same content");
     } else if (file.content_then.empty()) {
-      resumption.remarks.push_back(file.path + ": the checkpoint, of an older version, does not " +
-                                   "say what stood in " + file.then);
+      resumption.log_lines.push_back(file.path +
+                                     ": the checkpoint, of an older version, does not " +
+                                     "say what stood in " + file.then);
     }
   }
 }

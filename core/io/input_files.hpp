@@ -25,9 +25,9 @@ struct ScenarioIdentity {
 
 /// What there is to say of a run that goes on from its checkpoint, and what it goes on with.
 struct Resumption {
-  std::vector<std::string> remarks;   ///< for run.log: files that lie elsewhere now
-  std::vector<std::string> warnings;  ///< what is no longer as it was, though not in the way
-  std::vector<InputFile> inputs;      ///< as they are, but the state that the run began with
+  std::vector<std::string> log_lines;  ///< for run.log: files that lie elsewhere now
+  std::vector<std::string> warnings;   ///< what is no longer as it was, though not in the way
+  std::vector<InputFile> inputs;       ///< as they are, but the state that the run began with
 };
 
 }  // namespace dust::io

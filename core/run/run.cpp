@@ -17,6 +17,7 @@
 #include "registry/guard_report.hpp"
 #include "report/report.hpp"
 #include "run/branch/branch.hpp"
+#include "run/branch/past.hpp"
 #include "run/branch/used_models.hpp"
 #include "run/folder/input_digests.hpp"
 #include "run/folder/log_header.hpp"
@@ -110,6 +111,27 @@ struct Intervals {
   }
 };
 
+/// What helps where a checkpoint cannot be gone on with.
+constexpr const char* k_restart_remedy = "start again with --force";
+
+void warn(const std::string& text, RunFacts& facts) {
+  base::log_warning(text);
+  facts.warnings.push_back(text);
+}
+
+void note(const Past& past, RunFacts& facts) {
+  facts.start = past.start;
+  facts.past_warnings = past.warnings;
+  for (const std::string& warning : past.warnings) warn(warning, facts);
+}
+
+/// What differs from the run's beginning without being in the way.
+void note(const io::Resumption& resumption, RunFacts& facts) {
+  facts.inputs = resumption.inputs;
+  for (const std::string& line : resumption.log_lines) facts.log_header.push_back(line);
+  for (const std::string& warning : resumption.warnings) warn(warning, facts);
+}
+
 /// The files of one run and the loop over fluid steps.
 class Run {
  public:
@@ -121,9 +143,10 @@ class Run {
         models_(std::move(models)),
         steps_per_(simulation_.setup().time, keep_every) {}
 
-  /// `end_where`: of time.end. Throws base::UserError where that has passed.
-  io::Resumption resume(const scenario::Mark& end_where) {
-    refuse_changed_models(folder_ / "checkpoint.h5", models_);
+  /// Puts what it knows of its past into `facts`. Throws base::UserError where time.end has passed.
+  void resume(const scenario::StartSetup& start, RunFacts& facts) {
+    const fs::path checkpoint = folder_ / "checkpoint.h5";
+    refuse_changed_models(checkpoint, models_);
     auto parts = simulation_.load_parts();
     parts.emplace_back("files", [this](sdk::ArchiveReader& a) {
       frames_ = a.integer("frames");
@@ -131,16 +154,23 @@ class Run {
       rows_ = a.integer("rows");
       times_.load(a);
     });
-    io::Resumption resumption = io::read_checkpoint(folder_ / "checkpoint.h5", scenario_, parts);
+    const io::Resumption resumption = io::read_checkpoint(checkpoint, scenario_, parts);
     scenario_.inputs = resumption.inputs;
     is_resumed_ = true;
-    const double end = simulation_.setup().time.end, time = simulation_.time();
-    if (end >= time * (1.0 - 1e-9)) return resumption;
-    const auto seconds = [](double value) { return scenario::number_text(value) + " s"; };
-    throw base::UserError(scenario::place(end_where) + ": error: time.end: " + seconds(end) +
-                          " is before the time that the run in " + folder_.string() +
-                          " has reached, " + seconds(time) +
-                          ": give a later end to go on, or another -o to run anew");
+    refuse_past_end(start.end_where);
+    const auto rebuilt = rebuilt_models(io::StoredState(checkpoint, k_restart_remedy), models_);
+    note(load_past(io::StoredState(checkpoint, k_restart_remedy)), facts);
+    note(resumption, facts);
+    for (const ChangedModel& model : rebuilt) {
+      facts.past_warnings.push_back(model.rebuilt_text());
+      warn(facts.past_warnings.back(), facts);
+    }
+    // A branch of an older version does not know when it began.
+    if (start.from && !facts.start) return;
+    const double begin = facts.start ? facts.start->time : 0.0;
+    if (const std::string text = simulation_.go_on_with_dust_figures(begin); !text.empty()) {
+      warn(text, facts);
+    }
   }
 
   /// `live` may be null.
@@ -157,6 +187,16 @@ class Run {
   }
 
  private:
+  void refuse_past_end(const scenario::Mark& end_where) const {
+    const double end = simulation_.setup().time.end, time = simulation_.time();
+    if (end >= time * (1.0 - 1e-9)) return;
+    const auto seconds = [](double value) { return scenario::number_text(value) + " s"; };
+    throw base::UserError(scenario::place(end_where) + ": error: time.end: " + seconds(end) +
+                          " is before the time that the run in " + folder_.string() +
+                          " has reached, " + seconds(time) +
+                          ": give a later end to go on, or another -o to run anew");
+  }
+
   void open_files() {
     base::log_to_file(folder_ / "run.log", is_resumed_);
     for (const std::string& line : facts_.log_header) base::log_info(line);
@@ -170,7 +210,7 @@ class Run {
                                                  simulation_.models().bodies, materials, domain.min,
                                                  domain.max);
     series_ = std::make_unique<io::SeriesFile>(folder_ / "series.csv", is_resumed_ ? rows_ : -1);
-    if (facts_.start) log_start();
+    if (facts_.start && !is_resumed_) log_start();
     if (is_resumed_) {
       base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
     } else {
@@ -433,6 +473,9 @@ class Run {
       times_.save(a, node_seconds(simulation_, times_.nodes_before()));
     });
     parts.emplace_back(k_models_part, [this](sdk::ArchiveWriter& a) { save_models(models_, a); });
+    parts.emplace_back(k_past_part, [this](sdk::ArchiveWriter& a) {
+      save_past({facts_.start, facts_.past_warnings}, a);
+    });
     io::write_checkpoint(folder_ / "checkpoint.h5", scenario_, parts);
     if (steps_per_.is_kept(simulation_.steps_done())) {
       io::keep_checkpoint(folder_ / "checkpoint.h5", kept_checkpoint(folder_, simulation_.time()));
@@ -472,7 +515,7 @@ Models make_models_of(const scenario::ReadResult& read, const registry::Registry
   Models models = make_models(read.setup, registry, read.dust);
   if (branch != nullptr) branch->add_diameters(models.class_diameters);
   if (read.start.from && resumed) {
-    const io::StoredState state(*resumed / "checkpoint.h5", "start again with --force");
+    const io::StoredState state(*resumed / "checkpoint.h5", k_restart_remedy);
     models.class_diameters = class_diameters_of(state);
   }
   return models;
@@ -536,16 +579,6 @@ RunFacts facts_of(const scenario::ReadResult& read, const std::vector<io::InputF
   return facts;
 }
 
-/// What differs from the run's beginning without being in the way.
-void note(const io::Resumption& resumption, RunFacts& facts) {
-  facts.inputs = resumption.inputs;
-  for (const std::string& remark : resumption.remarks) facts.log_header.push_back(remark);
-  for (const std::string& warning : resumption.warnings) {
-    base::log_warning(warning);
-    facts.warnings.push_back(warning);
-  }
-}
-
 /// The port of --live, before anything is written.
 void take_port(const RunOptions& options, std::optional<LiveReport>& live) {
   if (!options.live_port) return;
@@ -597,17 +630,15 @@ int run_scenario(const RunOptions& options) {
   }
   if (!options.resume) start(*simulation, origin);
   RunFacts facts = facts_of(read, inputs, registry, options, threads);
-  for (const std::string& warning : branching.warning_lines()) {
-    base::log_warning(warning);
-    facts.warnings.push_back(warning);
-  }
+  facts.models = used_models(read, registry);
+  facts.past_warnings = branching.warning_lines();
+  for (const std::string& warning : facts.past_warnings) warn(warning, facts);
   if (branch) facts.start = start_facts(*branch);
   branch.reset();  // the other run's particles
   output.open();
   const fs::path folder = output.path();
-  Run run(*simulation, folder, {read.resolved_yaml, inputs}, used_models(read, registry),
-          read.start.keep_every);
-  if (options.resume) note(run.resume(read.start.end_where), facts);
+  Run run(*simulation, folder, {read.resolved_yaml, inputs}, facts.models, read.start.keep_every);
+  if (options.resume) run.resume(read.start, facts);
   base::catch_end_signals(on_signal);
   if (live) {
     live->begin(folder);

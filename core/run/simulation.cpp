@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/simulation.hpp"
 
+#include "base/text.hpp"
 #include "run/body_removal.hpp"
 #include "run/dust/hoods.hpp"
 #include "run/run_checks.hpp"
 #include "run/state_digest.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace dust::run {
@@ -109,6 +112,31 @@ void Simulation::begin_dust_figures() {
   const double middle = begin + 0.5 * (setup_.time.end - begin);
   dust_figures_->rates.begin_at(middle);
   dust_figures_->indices.begin_at(middle);
+}
+
+std::string Simulation::go_on_with_dust_figures(double begin) {
+  if (!dust_figures_ || steady_after_given() > 0.0) return {};
+  constexpr double k_rounding = 0.01;
+  const double step = clock_.fluid_step();
+  const double before = dust_figures_->rates.steady_after();
+  const double middle = begin + 0.5 * (setup_.time.end - begin);
+  if (std::abs(middle - before) < k_rounding * step) return {};
+  // Means that had not begun know no amounts to take the first rate from.
+  const bool had_begun = before <= time() + k_rounding * step;
+  const double earliest = had_begun ? time() : time() + step;
+  const bool is_in_time = middle >= earliest - k_rounding * step;
+  if (is_in_time || !had_begun) {
+    const double first = std::max(middle, earliest);
+    dust_figures_->rates.begin_at(first);
+    dust_figures_->indices.begin_at(first);
+  }
+  if (is_in_time) return {};
+  const auto seconds = [](double value) { return base::digits_text(value, 10) + " s"; };
+  return "dust_rates and stream_indices are means from " +
+         seconds(dust_figures_->rates.steady_after()) + " on, not from the middle of the run, " +
+         seconds(middle) + ", which had passed when it was given its end of " +
+         seconds(setup_.time.end) +
+         ": in a run that is to be extended, dust.steady_after says when they begin";
 }
 
 void Simulation::start_from(const std::function<void(const Owners&)>& give) {

@@ -61,6 +61,11 @@ class Simulation {
   /// In a run that has started from another: where the scenario does not say when means of dust
   /// begin, they do in the middle of what is ahead, anew.
   void begin_dust_figures();
+  /// In a resumed run, which began at `begin` [s] and may end later than it was to: where the
+  /// scenario does not say when means of dust begin, they do in the middle of the whole run, as if
+  /// it had never been cut. Where that has passed they stay as they are, and what comes back says
+  /// since when they are.
+  std::string go_on_with_dust_figures(double begin);
   /// One fluid step: one pass of the outer graph.
   void step();
 

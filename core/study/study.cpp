@@ -273,7 +273,13 @@ int run_study(const StudyOptions& options) {
   }
   if (options.launcher == "slurm" && !options.dry_run) check_slurm();
   const fs::path folder = choose_study_folder(options, spec->name);
-  if (options.resume) refuse_changed_models(plan, PointStore(folder), registry);
+  if (options.resume) {
+    const PointStore store(folder);
+    refuse_changed_models(plan, store, registry);
+    for (const std::string& line : rebuilt_models(plan, store, registry)) {
+      std::fprintf(stderr, "warning: %s\n", line.c_str());
+    }
+  }
   return Study(options, *spec, planner, std::move(plan)).run(folder);
 }
 

@@ -2,6 +2,7 @@
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -210,4 +211,29 @@ TEST_CASE("what cannot be carried over shall be named with its place and a remed
   const auto time = run(folder / "refused", "20 ms", {from + "@soon"});
   CHECK(time.status == 2);
   CHECK(time.err.find("'soon' behind the @ is no time, like 0.5 s") != std::string::npos);
+}
+
+TEST_CASE("a resumed branch shall know that it is one, and what was warned of when it began") {
+  const TemporaryFolder folder;
+  REQUIRE(run(folder / "first", "8 ms").status == 0);
+  const std::vector<std::string> settings = {"start_from=" + (folder / "first").string(),
+                                             "emitters.feed.mass_flow=2 g/s"};
+  REQUIRE(run(folder / "whole", "16 ms", settings).status == 0);
+  REQUIRE(run(folder / "parts", "12 ms", settings).status == 0);
+  // Also the second time.
+  for (const std::string end : {"14 ms", "16 ms"}) {
+    const auto resumed =
+        engine({"run", k_scenario, "-o", folder / "parts", "--set", "time.end=" + end, "--set",
+                settings[0], "--set", settings[1], "--resume", "--quiet"});
+    INFO(resumed.err);
+    REQUIRE(resumed.status == 0);
+  }
+  const auto summary = [&](const char* name) {
+    return nlohmann::json::parse(read_file(folder / name / "summary.json"));
+  };
+  const auto whole = summary("whole"), parts = summary("parts");
+  REQUIRE(whole.contains("start_from"));
+  CHECK(parts["start_from"] == whole["start_from"]);
+  REQUIRE(!whole["warnings"].empty());
+  CHECK(parts["warnings"] == whole["warnings"]);
 }

@@ -128,3 +128,36 @@ TEST_CASE("a study shall not mix versions of a plugin in one table") {
   says(refused.err, "--force");
   CHECK(with("first", {"study", study, "-o", out, "--resume", "--quiet"}).status == 0);
 }
+
+TEST_CASE("a library built anew under the same version shall be gone on with and told of") {
+  const TemporaryFolder folder;
+  const std::string heap = write(folder / "heap.yaml", k_heap);
+  const fs::path out = folder / "out";
+  REQUIRE(with("first", {"run", heap, "-o", out, "--set", "time.end=20 ms", "--quiet"}).status ==
+          0);
+  const std::string warning = "contact/changing_law of version 1.0 is another library than before";
+  const auto resume = [&](const std::string& law, const std::string& end) {
+    const auto run =
+        with(law, {"run", heap, "-o", out, "--set", "time.end=" + end, "--resume", "--quiet"});
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    return read_file(out / "summary.json").find(warning) != std::string::npos;
+  };
+  CHECK_FALSE(resume("first", "30 ms"));
+  CHECK(resume("rebuilt", "40 ms"));
+  says(read_file(out / "run.log"), warning);
+  // What has been mixed stays so.
+  CHECK(resume("rebuilt", "50 ms"));
+
+  const std::string study =
+      write(folder / "study.yaml",
+            "base: heap.yaml\nmeasure: {grains: particles.emitted}\nset: {time.end: 5 ms}\n"
+            "vary: {'interactions[0].contact.stiffness': [100, 200 N/m]}\n");
+  const std::string points = folder / "points";
+  REQUIRE(with("first", {"study", study, "-o", points, "--quiet"}).status == 0);
+  const auto same = with("first", {"study", study, "-o", points, "--resume", "--quiet"});
+  CHECK(same.err.find("another library") == std::string::npos);
+  const auto mixed = with("rebuilt", {"study", study, "-o", points, "--resume", "--quiet"});
+  CHECK(mixed.status == 0);
+  says(mixed.err, "2 points were run with another library of contact/changing_law 1.0 than ");
+}

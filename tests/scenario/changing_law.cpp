@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A law that comes in several versions: LAW_VERSION, and LAW_NUMBERS kept per contact.
+// A law that comes in several versions: LAW_VERSION, LAW_NUMBERS kept per contact, and LAW_BUILD.
 #include <dust/sdk/plugin.hpp>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ class ChangingLaw final : public sdk::ContactLaw {
             .version = LAW_VERSION,
             .summary = "A spring that is softer the deeper it has been.",
             .equation = "F = k d",
-            .source = "a test"};
+            .source = "a test, built as " LAW_BUILD};
   }
   explicit ChangingLaw(const Parameters& p) : parameters_(p) {}
   void prepare(const sdk::MaterialProperties&, const sdk::MaterialProperties&) override {}

@@ -96,3 +96,56 @@ TEST_CASE("what sources give shall be told as a rate beside where it goes") {
   CHECK(rates["released/sources/class/3_um/rate"]["value"].get<double>() ==
         approx(k_kg_per_h).epsilon(1e-9));
 }
+
+TEST_CASE("a run with dust that is extended before its new middle shall be as one never cut") {
+  const TemporaryFolder folder;
+  const json whole = run(folder / "whole", {"time.end=0.2 s"});
+  // Means of the first part had begun, and had not.
+  for (const std::string end : {"0.1 s", "0.05 s"}) {
+    CAPTURE(end);
+    const fs::path out = folder / ("parts" + end);
+    run(out, {"time.end=" + end});
+    const json resumed =
+        dust::test::run_summary(k_duct, out, {"--set", "time.end=0.2 s", "--resume"});
+    CHECK(resumed["state_sha256"] == whole["state_sha256"]);
+    for (const char* block : {"dust_rates", "stream_indices", "warnings"}) {
+      CAPTURE(block);
+      CHECK(resumed[block] == whole[block]);
+    }
+  }
+}
+
+TEST_CASE("a run with dust that is extended past its new middle shall say since when means are") {
+  const TemporaryFolder folder;
+  run(folder / "out", {"time.end=0.1 s"});
+  const std::vector<std::string> to_140 = {"--set", "time.end=0.14 s", "--resume"};
+  const json late = dust::test::run_summary(k_duct, folder / "out", to_140);
+  const std::string warning =
+      "dust_rates and stream_indices are means from 0.05 s on, not from the middle of the run, "
+      "0.07 s, which had passed when it was given its end of 0.14 s";
+  REQUIRE(late["warnings"].size() == 1);
+  CHECK(late["warnings"][0].get<std::string>().starts_with(warning));
+  CHECK(late["dust_rates"]["observed"]["value"].get<double>() == approx(0.09).epsilon(1e-9));
+  // Not where the scenario says when they begin.
+  const json kept = dust::test::run_summary(
+      k_duct, folder / "given", {"--set", "time.end=0.1 s", "--set", "dust.steady_after=0.05 s"});
+  CHECK(kept["warnings"].empty());
+  const json given = dust::test::run_summary(
+      k_duct, folder / "given",
+      {"--set", "time.end=0.14 s", "--set", "dust.steady_after=0.05 s", "--resume"});
+  CHECK(given["warnings"].empty());
+}
+
+TEST_CASE("a branch with dust that is extended shall begin its means in the middle of the whole") {
+  const TemporaryFolder folder;
+  run(folder / "base", {"time.end=0.05 s"});
+  const std::string from = "start_from=" + (folder / "base").string();
+  const json whole = run(folder / "whole", {"time.end=0.25 s", from});
+  run(folder / "parts", {"time.end=0.15 s", from});
+  const json resumed = dust::test::run_summary(
+      k_duct, folder / "parts", {"--set", "time.end=0.25 s", "--set", from, "--resume"});
+  for (const char* block : {"dust_rates", "stream_indices", "warnings", "start_from"}) {
+    CAPTURE(block);
+    CHECK(resumed[block] == whole[block]);
+  }
+}

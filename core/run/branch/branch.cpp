@@ -106,6 +106,9 @@ Branch::Branch(const scenario::ReadResult& now, const std::vector<io::InputFile>
 
 void Branch::report_models() {
   for (const ChangedModel& change : changed_models_) warn(change.text());
+  for (const ChangedModel& model : rebuilt_models(origin_.state(), used_models(now_, registry_))) {
+    if (!is_changed(model.now.kind, model.now.name)) warn(model.rebuilt_text());
+  }
 }
 
 bool Branch::is_changed(std::string_view kind, std::string_view name) const {

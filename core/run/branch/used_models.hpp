@@ -20,6 +20,7 @@ struct UsedModel {
   std::string version;
   std::int64_t history_size = 0;  ///< numbers that a law keeps per contact
   std::filesystem::path file;     ///< of the plugin; not kept
+  std::string sha256;             ///< of the file; empty where it came with the engine
 };
 
 /// The models of a scenario, each once.
@@ -37,11 +38,18 @@ struct ChangedModel {
   [[nodiscard]] bool keeps_other_numbers() const { return then.history_size != now.history_size; }
   /// "contact/NAME was of version 1.0, with 4 numbers per contact, and is of version 2.0, ... now".
   [[nodiscard]] std::string text() const;
+  /// The same of one whose library is another one, though its version is the same.
+  [[nodiscard]] std::string rebuilt_text() const;
 };
 
 /// Those of `now` that a state was kept by with another version, or other numbers per contact.
 /// States from before checkpoints noted them tell of none.
 std::vector<ChangedModel> changed_models(const io::StoredState& state,
+                                         const std::vector<UsedModel>& now);
+
+/// Those of `now` whose version is the same, but whose library is not the one of then. What comes
+/// with the engine is the engine's.
+std::vector<ChangedModel> rebuilt_models(const io::StoredState& state,
                                          const std::vector<UsedModel>& now);
 
 /// Throws base::UserError where a run that is resumed from `checkpoint` would go on with other

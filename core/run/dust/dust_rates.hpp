@@ -33,6 +33,7 @@ class DustRates {
 
   /// Means begin anew, at `time` [s].
   void begin_at(double time);
+  [[nodiscard]] double steady_after() const { return steady_after_; }  ///< [s]
   /// At the end of a fluid step of `step` [s], at `time` [s].
   void sample(double time, double step);
 

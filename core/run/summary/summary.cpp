@@ -296,8 +296,14 @@ Json record_json(const Simulation& s, const RunFacts& facts) {
   j["build"] = {{"compiler", base::k_compiler},
                 {"processor", base::k_processor},
                 {"plugin_interface", sdk::k_interface_version}};
-  if (facts.registry != nullptr)
-    j["plugins"] = plugins_json(s.setup(), s.dust_setup(), *facts.registry);
+  if (facts.registry == nullptr) return j;
+  j["plugins"] = plugins_json(s.setup(), s.dust_setup(), *facts.registry);
+  for (Json& plugin : j["plugins"]) {
+    for (const UsedModel& model : facts.models) {
+      const bool is_it = plugin["kind"] == model.kind && plugin["name"] == model.name;
+      if (is_it && !model.sha256.empty()) plugin["sha256"] = model.sha256;
+    }
+  }
   return j;
 }
 

@@ -3,6 +3,7 @@
 
 #include "io/input_files.hpp"
 #include "run/audit/force_shares.hpp"
+#include "run/branch/used_models.hpp"
 #include "run/simulation.hpp"
 #include "setup/reference_curve.hpp"
 #include "setup/reference_spec.hpp"
@@ -41,8 +42,10 @@ struct RunFacts {
   std::vector<scenario::ReferenceSpec> references;
   std::vector<scenario::ReferenceCurve> reference_curves;
   const registry::Registry* registry = nullptr;  ///< where the models came from; null in tests
+  std::vector<UsedModel> models;                 ///< as the run began, or went on, with them
   std::string scenario_sha256;                   ///< of scenario.yaml as run
   std::vector<io::InputFile> inputs;             ///< files that it reads
+  std::vector<std::string> past_warnings;        ///< of `warnings`, those that a resume keeps
   std::optional<StartFacts> start;               ///< nothing: at 0 s
   std::vector<std::string> log_header;           ///< the first lines of run.log
 };

@@ -170,11 +170,11 @@ TEST_CASE("files of a scenario shall be the same by what stands in them, not by 
   };
   write(file, then, {1}, {{"/then/box.stl", "aaaa"}});
   const auto same = resumed(then, "/then/box.stl", "aaaa");
-  CHECK(same.remarks.empty());
+  CHECK(same.log_lines.empty());
   CHECK(same.inputs == std::vector<io::InputFile>{{"/then/box.stl", "aaaa"}});
   const auto moved = resumed(now, "/now/box.stl", "aaaa");
-  REQUIRE(moved.remarks.size() == 1);
-  CHECK(moved.remarks[0] ==
+  REQUIRE(moved.log_lines.size() == 1);
+  CHECK(moved.log_lines[0] ==
         "bodies.r.file: /now/box.stl in place of /then/box.stl, with the same content");
   CHECK(message(then, "/then/box.stl", "bbbb")
             .find("bodies.r.file: /then/box.stl is not the file that the run began with (sha256 "
@@ -187,8 +187,8 @@ TEST_CASE("files of a scenario shall be the same by what stands in them, not by 
   // Of older checkpoints, which do not say, the names count.
   write(file, then, {1});
   const auto unknown = resumed(then, "/then/box.stl", "aaaa");
-  REQUIRE(unknown.remarks.size() == 1);
-  CHECK(unknown.remarks[0].find("does not say what stood in /then/box.stl") != std::string::npos);
+  REQUIRE(unknown.log_lines.size() == 1);
+  CHECK(unknown.log_lines[0].find("does not say what stood in /then/box.stl") != std::string::npos);
   CHECK(message(now, "/now/box.stl", "aaaa").find("belongs to another scenario") !=
         std::string::npos);
 }

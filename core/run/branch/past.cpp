@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/branch/past.hpp"
+
+#include "dust/sdk/error.hpp"
+
+#include <cstdint>
+
+namespace dust::run {
+namespace {
+
+constexpr const char* k_warnings = "warnings";
+constexpr const char* k_counts = "counts";
+
+/// Texts one behind the other, a letter a number and a zero behind each.
+std::vector<std::int64_t> letters_of(const std::vector<std::string>& texts) {
+  std::vector<std::int64_t> letters;
+  for (const std::string& text : texts) {
+    for (const char letter : text) letters.push_back(static_cast<unsigned char>(letter));
+    letters.push_back(0);
+  }
+  return letters;
+}
+
+std::vector<std::string> texts_of(const std::vector<std::int64_t>& letters) {
+  std::vector<std::string> texts;
+  std::string text;
+  for (const std::int64_t letter : letters) {
+    if (letter != 0) {
+      text += static_cast<char>(letter);
+      continue;
+    }
+    texts.push_back(std::move(text));
+    text.clear();
+  }
+  return texts;
+}
+
+StartFacts load_start(sdk::ArchiveReader& archive) {
+  StartFacts start;
+  const auto states = texts_of(archive.integers("state"));
+  const auto counts = archive.integers(k_counts);
+  if (states.size() != 1 || counts.size() != 4) {
+    throw sdk::ModelError("what is saved of the run's beginning does not fit together");
+  }
+  start.state = states[0];
+  start.time = archive.number("time");
+  start.particles = counts[0];
+  start.contacts = counts[1];
+  start.without_past = counts[2];
+  start.is_same = counts[3] != 0;
+  start.sensors = texts_of(archive.integers("sensors"));
+  return start;
+}
+
+}  // namespace
+
+void save_past(const Past& past, sdk::ArchiveWriter& archive) {
+  archive.integers(k_warnings, letters_of(past.warnings));
+  if (!past.start) return;
+  const StartFacts& start = *past.start;
+  archive.integers("state", letters_of({start.state}));
+  archive.number("time", start.time);
+  const std::int64_t counts[] = {start.particles, start.contacts, start.without_past,
+                                 start.is_same ? 1 : 0};
+  archive.integers(k_counts, counts);
+  archive.integers("sensors", letters_of(start.sensors));
+}
+
+Past load_past(const io::StoredState& state) {
+  Past past;
+  if (!state.has(k_past_part, k_warnings)) return past;
+  state.read({{k_past_part, [&](sdk::ArchiveReader& a) {
+                 past.warnings = texts_of(a.integers(k_warnings));
+                 if (state.has(k_past_part, k_counts)) past.start = load_start(a);
+               }}});
+  return past;
+}
+
+}  // namespace dust::run
