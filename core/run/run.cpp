@@ -114,6 +114,7 @@ struct Intervals {
 /// What helps where a checkpoint cannot be gone on with.
 constexpr const char* k_restart_remedy = "start again with --force";
 
+/// On the terminal, in run.log and in summary.json.
 void warn(const std::string& text, RunFacts& facts) {
   base::log_warning(text);
   facts.warnings.push_back(text);
@@ -335,19 +336,13 @@ class Run {
     if (facts_.status == "finished" && simulation_.steps_done() % steps_per_.row != 0) write_row();
   }
 
-  /// On the terminal, in run.log and in summary.json.
-  void warn(const std::string& text) {
-    base::log_warning(text);
-    facts_.warnings.push_back(text);
-  }
-
   int close() {
     take_times();
-    for (const std::string& text : shortfalls(simulation_)) warn(text);
+    for (const std::string& text : shortfalls(simulation_)) warn(text, facts_);
     const auto& dem = simulation_.dem();
     const std::string overlaps = overlap_warning(dem.report(), dem.time_steps().expected_speed);
     // A run that failed has its own reason, often this one.
-    if (!overlaps.empty() && facts_.status != "failed") warn(overlaps);
+    if (!overlaps.empty() && facts_.status != "failed") warn(overlaps, facts_);
     for (const std::string& text : audit_lines(simulation_, forces_)) base::log_info(text);
     const bool has_summary = survives([this] { write_summary(folder_, simulation_, facts_); });
     if (live_ != nullptr) live_->publish_progress(simulation_, facts_, Pace(simulation_.time()));

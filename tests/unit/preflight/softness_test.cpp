@@ -49,7 +49,7 @@ fluid: none
 
 using Set = std::vector<scenario::Override>;
 
-const registry::Registry& shipped() {
+const registry::Registry& shipped_models() {
   static registry::Registry registry;
   static const bool is_loaded = (registry.load({DUST_TEST_PLUGINS}), true);
   (void)is_loaded;
@@ -58,11 +58,11 @@ const registry::Registry& shipped() {
 
 scenario::ReadResult read_box(const Set& set) {
   const Folder folder;
-  return preflight::read_scenario(folder.write("box.yaml", k_box), set, shipped());
+  return preflight::read_scenario(folder.write("box.yaml", k_box), set, shipped_models());
 }
 
 preflight::ImpactOverlap impact(const Set& set) {
-  return preflight::derive(read_box(set).setup, shipped()).impact;
+  return preflight::derive(read_box(set).setup, shipped_models()).impact;
 }
 
 /// The one warning; "" without any.
@@ -130,7 +130,7 @@ TEST_CASE("the modulus that is advised shall be that of a small overlap") {
   for (const char* soft : {"5", "20 kPa", "1 MPa"}) {
     CAPTURE(soft);
     const scenario::ReadResult read = read_box({{"materials.sand.young_modulus", soft}});
-    const auto before = preflight::derive(read.setup, shipped()).impact;
+    const auto before = preflight::derive(read.setup, shipped_models()).impact;
     const std::string advice = preflight::stiffness_advice(read.setup, before);
     INFO(advice);
     const std::string words = "give materials.sand.young_modulus at least ";
