@@ -2,7 +2,6 @@
 #include "base/utf8.hpp"
 
 #include <array>
-#include <cstddef>
 
 namespace dust::base {
 namespace {
@@ -28,17 +27,24 @@ const Form* form_of(unsigned byte) {
 
 }  // namespace
 
-bool is_utf8(std::string_view text) {
+std::size_t utf8_length(std::string_view text, std::size_t at) {
+  if (at >= text.size()) return 0;
   const auto byte = [&](std::size_t n) { return static_cast<unsigned char>(text[n]); };
+  const Form* form = form_of(byte(at));
+  if (form == nullptr || at + form->followers >= text.size()) return 0;
+  for (std::size_t n = 1; n <= form->followers; ++n) {
+    const unsigned low = n == 1 ? form->low : 0x80;
+    const unsigned high = n == 1 ? form->high : 0xBF;
+    if (byte(at + n) < low || byte(at + n) > high) return 0;
+  }
+  return 1 + form->followers;
+}
+
+bool is_utf8(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
-    const Form* form = form_of(byte(at));
-    if (form == nullptr || at + form->followers >= text.size()) return false;
-    for (std::size_t n = 1; n <= form->followers; ++n) {
-      const unsigned low = n == 1 ? form->low : 0x80;
-      const unsigned high = n == 1 ? form->high : 0xBF;
-      if (byte(at + n) < low || byte(at + n) > high) return false;
-    }
-    at += 1 + form->followers;
+    const std::size_t length = utf8_length(text, at);
+    if (length == 0) return false;
+    at += length;
   }
   return true;
 }

@@ -8,25 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <set>
 
 namespace dust::particles {
 namespace {
 
 /// Fluid steps are whole numbers of coarse steps; this forgives the rounding of their quotient.
 constexpr double k_whole_slack = 1e-9;
-
-std::set<int> grain_materials(const scenario::Setup& setup) {
-  std::set<int> materials;
-  for (const auto& e : setup.emitters) {
-    materials.insert(e.material);
-    materials.insert(e.more_materials.begin(), e.more_materials.end());
-  }
-  if (materials.empty()) {
-    for (std::size_t m = 0; m < setup.materials.size(); ++m) materials.insert(static_cast<int>(m));
-  }
-  return materials;
-}
 
 double approach_speed(const scenario::Setup& setup, const bodies::BodySet& bodies) {
   if (setup.time.expected_speed > 0.0) return setup.time.expected_speed;
@@ -103,6 +90,18 @@ int level_of(double coarse_step, double stable_step) {
 }
 
 }  // namespace
+
+std::set<int> grain_materials(const scenario::Setup& setup) {
+  std::set<int> materials;
+  for (const auto& e : setup.emitters) {
+    materials.insert(e.material);
+    materials.insert(e.more_materials.begin(), e.more_materials.end());
+  }
+  if (materials.empty()) {
+    for (std::size_t m = 0; m < setup.materials.size(); ++m) materials.insert(static_cast<int>(m));
+  }
+  return materials;
+}
 
 double rayleigh_time(const sdk::MaterialProperties& material, double radius) {
   const double shear = material.young_modulus / (2.0 * (1.0 + material.poisson_ratio));

@@ -3,6 +3,7 @@
 
 #include "particles/dem.hpp"
 
+#include <set>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,9 @@ namespace dust::particles {
 
 /// Grains of at least this share of the largest diameter step at the coarse rate.
 inline constexpr double k_coarse_share = 1.0 / 8.0;
+
+/// Materials that grains have: those of the emitters; without any, all.
+std::set<int> grain_materials(const scenario::Setup& setup);
 
 /// Rayleigh time [s]: \f$ T_R = \pi R \sqrt{\rho/G} / (0.1631 \nu + 0.8766) \f$,
 /// \f$ G = E / (2 (1 + \nu)) \f$. Source: Li, Xu, Thornton, Powder Technol. 160 (2005) 219.

@@ -38,11 +38,7 @@ const std::string& name_of(const Setup& setup, int material) {
 struct Kinds {
   std::set<int> of_grains, of_walls;
 
-  explicit Kinds(const Setup& setup) {
-    for (const auto& e : setup.emitters) {
-      of_grains.insert(e.material);
-      of_grains.insert(e.more_materials.begin(), e.more_materials.end());
-    }
+  explicit Kinds(const Setup& setup) : of_grains(particles::grain_materials(setup)) {
     for (const auto& body : setup.bodies) of_walls.insert(body.material);
     for (const auto& side : setup.domain.sides) {
       if (side.grains == scenario::GrainSide::wall) of_walls.insert(side.material);

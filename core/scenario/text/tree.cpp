@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/text/tree.hpp"
 
+#include "base/utf8.hpp"
 #include "scenario/text/suggest.hpp"
 
 #include <yaml-cpp/eventhandler.h>
@@ -174,18 +175,10 @@ class TreeBuilder final : public YAML::EventHandler {
 
 /// Length of the UTF-8 character at `text[at]`, 0 when it is none that YAML allows.
 std::size_t character_length(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t n) {
-    return at + n < text.size() ? static_cast<unsigned char>(text[at + n]) : 0u;
-  };
-  const auto follows = [&](std::size_t n) { return (byte(n) & 0xC0u) == 0x80u; };
-  const unsigned first = byte(0);
-  if (first < 0x80) {
-    return first >= 0x20 && first != 0x7f ? 1 : (first == '\n' || first == '\r' || first == '\t');
-  }
-  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
-  if (first >= 0xE0 && first <= 0xEF) return follows(1) && follows(2) ? 3 : 0;
-  if (first >= 0xF0 && first <= 0xF4) return follows(1) && follows(2) && follows(3) ? 4 : 0;
-  return 0;
+  const auto first = static_cast<unsigned char>(text[at]);
+  const bool is_control = first < 0x20 || first == 0x7f;
+  if (is_control && first != '\n' && first != '\r' && first != '\t') return 0;
+  return base::utf8_length(text, at);
 }
 
 /// Refuses what is not text before the parser sees it; true if all is well.

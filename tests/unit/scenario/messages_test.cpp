@@ -79,6 +79,16 @@ TEST_CASE("what YAML misses shall be told with what to look for") {
         std::string::npos);
 }
 
+TEST_CASE("a surrogate or an overlong form shall be told to be no text, with its place") {
+  const Folder folder;
+  for (const std::string bytes : {"\xED\xA0\x80", "\xE0\x80\xAF"}) {
+    const auto lines =
+        problems(folder.write("s.yaml", "gravity: [0, 0, 0]\nname: a" + bytes + "\n"));
+    REQUIRE(!lines.empty());
+    CHECK(lines[0].starts_with("s.yaml:2:8: error: not a text in UTF-8"));
+  }
+}
+
 TEST_CASE("a merge key shall be told to be none, with what does the same") {
   const Folder folder;
   const auto lines =
