@@ -31,6 +31,7 @@ Conditions::Conditions(const scenario::Setup& setup, const bodies::BodySet& bodi
       surfaces(surfaces_of(setup, bodies)),
       domain(setup),
       steps(time_steps(setup, bodies, laws.all(), diameters)) {
+  find_abutting(bodies, setup.domain.min, setup.domain.max, surfaces);
   for (const auto& m : setup.materials) {
     materials.push_back(m.properties);
     // Buoyancy of the hydrostatic pressure: the fluid's own pressure does not hold it.

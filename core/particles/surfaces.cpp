@@ -5,6 +5,25 @@
 
 namespace dust::particles {
 
+/// A contact that an abutting body has instead is infinitely far.
+void Surface::leave_to_abutting(sdk::Vec3 point, double reach, bodies::SurfacePoint& near) const {
+  if (!(near.distance < reach)) return;
+  for (const AbuttingBody& other : *abutting) {
+    if (!other.takes_over(point, reach, near)) continue;
+    near.distance = std::numeric_limits<double>::infinity();
+    return;
+  }
+}
+
+void Surface::leave_to_abutting(const bodies::ClosestPoints& spheres) const {
+  for (std::size_t n = 0; n < spheres.count; ++n) {
+    bodies::SurfacePoint near{spheres.distance[n],
+                              {spheres.normal_x[n], spheres.normal_y[n], spheres.normal_z[n]}};
+    leave_to_abutting({spheres.x[n], spheres.y[n], spheres.z[n]}, spheres.reach[n], near);
+    spheres.distance[n] = near.distance;
+  }
+}
+
 void move_to(double time, std::span<Surface> surfaces) {
   for (Surface& s : surfaces) {
     if (s.is_displaced()) s.place = s.body->placement(time);

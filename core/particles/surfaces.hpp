@@ -3,11 +3,13 @@
 
 #include "bodies/body_set.hpp"
 #include "dust/sdk/vec3.hpp"
+#include "particles/abutting.hpp"
 #include "setup/setup.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +30,8 @@ struct Surface {
   bool is_turning = false;             ///< it turns, be it only where a belt bends
   double displacing_speed = 0.0;       ///< [m/s] upper bound; 0 = stands
   int opening = -1;                    ///< number of the opening in it; -1 = none
+  /// Bodies that the surface's own one touches; null: none.
+  std::shared_ptr<const AbuttingBodies> abutting;
 
   [[nodiscard]] bool is_displaced() const { return displacing_speed > 0.0; }
   /// A point of the domain in the frame that openings are given in, as the surface stood at the
@@ -37,17 +41,26 @@ struct Surface {
   }
   [[nodiscard]] bool is_removed() const { return body != nullptr && body->is_removed(); }
 
-  /// Where a sphere touches it: infinitely far where it cannot, or where nothing is nearer than
-  /// `reach` [m] to its centre.
+  /// Where a sphere touches it: infinitely far where it cannot, be it that an abutting body
+  /// touches the sphere there, or where nothing is nearer than `reach` [m] to its centre.
   [[nodiscard]] bodies::SurfacePoint contact(
       sdk::Vec3 point, double reach = std::numeric_limits<double>::infinity()) const {
-    if (body != nullptr) return body->contact(part, point, reach, place);
-    return {dot(normal, point) - offset, normal};
+    if (body == nullptr) return {dot(normal, point) - offset, normal};
+    bodies::SurfacePoint near = body->contact(part, point, reach, place);
+    if (abutting != nullptr) leave_to_abutting(point, reach, near);
+    return near;
   }
-  /// The same of many spheres.
+  /// The nearest point of its body, whichever part of it or abutting body touches a sphere there:
+  /// for predictions, in whose time a sphere may pass from one to another.
+  [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 point) const {
+    if (body == nullptr) return {dot(normal, point) - offset, normal};
+    return body->nearest(point, place);
+  }
+  /// The contacts of many spheres.
   void touch(const bodies::ClosestPoints& spheres) const {
     if (body != nullptr) {
       body->touch(part, spheres, place);
+      if (abutting != nullptr) leave_to_abutting(spheres);
       return;
     }
     for (std::size_t n = 0; n < spheres.count; ++n) {
@@ -68,6 +81,10 @@ struct Surface {
     if (body != nullptr) return body->is_within(part, point, reach, place);
     return dot(normal, point) - offset < reach;
   }
+
+ private:
+  void leave_to_abutting(sdk::Vec3 point, double reach, bodies::SurfacePoint& near) const;
+  void leave_to_abutting(const bodies::ClosestPoints& spheres) const;
 };
 
 /// Puts bodies that move to their place at `time` [s].

@@ -76,7 +76,7 @@ Approach approach_to_surface(const FineScene& scene, std::size_t i, std::int32_t
   const ParticleStore& s = scene.particles;
   const Surface& surface = scene.surface(number);
   const double radius = s.radius(i);
-  const auto point = surface.contact(vector_of(s.position(i)));
+  const auto point = surface.nearest(vector_of(s.position(i)));
   return {.gap = point.distance - radius,
           .effective_radius = radius,
           .effective_mass = 1.0 / s.velocity(i)[3],

@@ -2,6 +2,7 @@
 #include "particles/fine_level/sub_cycle.hpp"
 
 #include "contact/nearest_image.hpp"
+#include "particles/forces/handover.hpp"
 #include "particles/forces/law_stages.hpp"
 #include "particles/forces/wall_contacts.hpp"
 #include "particles/work/dissipation.hpp"
@@ -56,6 +57,9 @@ class SubCycle {
   void evaluate();
   bool load_pair(const CandidateContact& c);
   bool load_surface(const CandidateContact& c);
+  [[nodiscard]] bool reaches(const CandidateContact& c);
+  void take_over(const CandidateContact& c);
+  [[nodiscard]] bool is_passed_on(const CandidateContact& c);
   void flush(const CandidateContact& open);
   void derive_pairs();
   void derive_walls(const Surface& surface);
@@ -88,14 +92,50 @@ void SubCycle::evaluate() {
     const bool is_touching = c.surface >= 0 ? load_surface(c) : load_pair(c);
     std::uint8_t& touching = scene_.contacts.is_touching[c.entry];
     if (is_touching) {
+      if (touching == 0 && c.surface >= 0) take_over(c);
       is_new_[count_] = touching == 0;
       in_batch_[count_++] = &c;
-    } else if (touching != 0) {
+    } else if (touching != 0 && !is_passed_on(c)) {
       std::fill_n(history(c), scene_.contacts.history_stride, 0.0);
     }
     touching = static_cast<std::uint8_t>(is_touching ? 1 + block_.level : 0);
   }
   if (open != nullptr) flush(*open);
+}
+
+bool SubCycle::reaches(const CandidateContact& c) {
+  const SubCycledParticle& i = particle(c);
+  const double reach = i.radius + scene_.law(c.law).range;
+  return scene_.surface(c.surface).contact_at(time_, i.position, reach).distance < reach;
+}
+
+/// A contact with a surface that begins goes on with that of a flush body which has just ended.
+void SubCycle::take_over(const CandidateContact& c) {
+  const Surface& surface = scene_.surface(c.surface);
+  if (surface.abutting == nullptr) return;
+  for (const CandidateContact& e : block_.candidates) {
+    if (e.particle != c.particle || e.surface < 0) continue;
+    if (scene_.contacts.is_touching[e.entry] == 0) continue;
+    if (!may_hand_over(scene_.surface(e.surface), surface) || reaches(e)) continue;
+    hand_over(scene_.contacts, static_cast<std::size_t>(e.entry),
+              static_cast<std::size_t>(c.entry));
+    return;
+  }
+}
+
+/// Whether one that has ended goes on with a flush body, which has not been looked at yet.
+bool SubCycle::is_passed_on(const CandidateContact& c) {
+  if (c.surface < 0 || scene_.surface(c.surface).abutting == nullptr) return false;
+  for (const CandidateContact& e : block_.candidates) {
+    if (e.particle != c.particle || e.surface < 0) continue;
+    if (scene_.contacts.is_touching[e.entry] != 0) continue;
+    if (!may_hand_over(scene_.surface(c.surface), scene_.surface(e.surface))) continue;
+    if (!reaches(e)) continue;
+    hand_over(scene_.contacts, static_cast<std::size_t>(c.entry),
+              static_cast<std::size_t>(e.entry));
+    return true;
+  }
+  return false;
 }
 
 bool SubCycle::load_pair(const CandidateContact& c) {
@@ -131,7 +171,8 @@ bool SubCycle::load_pair(const CandidateContact& c) {
 bool SubCycle::load_surface(const CandidateContact& c) {
   const SubCycledParticle& i = particle(c);
   const Surface& surface = scene_.surface(c.surface);
-  const bodies::SurfacePoint s = surface.contact_at(time_, i.position);
+  const double reach = i.radius + scene_.law(c.law).range;
+  const bodies::SurfacePoint s = surface.contact_at(time_, i.position, reach);
   const double overlap = i.radius - s.distance;
   if (surface.opening >= 0 && overlap > 0.0) {
     scene_.opening_marks.note(surface, i.particle, i.position - s.distance * s.normal);
@@ -197,7 +238,8 @@ void SubCycle::flush(const CandidateContact& open) {
   count_ = 0;
 }
 
-/// What the batch dissipates: half of it at either particle, all of it at the particle of a wall.
+/// What the batch dissipates: half of it at either particle, where weights differ by the share of
+/// the force that it feels; all of it at the particle of a wall.
 void SubCycle::note_work(const CandidateContact& open) {
   Dissipation lost;
   find_dissipation(scene_.law(open.law), columns_, count_, sub_step_, scene_.laws.work_column(),
@@ -209,11 +251,15 @@ void SubCycle::note_work(const CandidateContact& open) {
           {c.particle, scene_.surface(c.surface).wall, lost.normal[q], lost.tangential[q]});
       continue;
     }
-    for (const std::int32_t side : {c.particle, c.partner}) {
+    const double weight_i = particle(c).weight;
+    const double weight_j = partner(c).weight;
+    const auto add = [&](std::int32_t side, double share) {
       BlockWork& work = block_.work[static_cast<std::size_t>(side)];
-      work.normal += 0.5 * lost.normal[q];
-      work.tangential += 0.5 * lost.tangential[q];
-    }
+      work.normal += 0.5 * share * lost.normal[q];
+      work.tangential += 0.5 * share * lost.tangential[q];
+    };
+    add(c.particle, felt_share(weight_i, weight_j));
+    add(c.partner, felt_share(weight_j, weight_i));
   }
 }
 

@@ -38,10 +38,11 @@ void ContactForces::evaluate(const ContactScene& scene, Tile range, TileContacts
 /// What a batch dissipates, beside the forces that it brings; histories stand in the columns.
 void ContactForces::note_work(const ContactScene& scene, const PairLaws& law,
                               const contact::Places* places, const std::int32_t* contacts,
-                              std::size_t count, BatchColumns& columns, double* force) {
+                              std::size_t count, bool has_scales, BatchColumns& columns,
+                              double* force) {
   Dissipation lost;
   find_dissipation(law, columns, count, scene.step, scene.laws.work_column(), lost);
-  scatter_dissipation(lost, places, contacts, count, force);
+  scatter_dissipation(lost, places, contacts, count, has_scales, columns, force);
 }
 
 /// Contacts that touched when the list was pruned: nearly all still do, so that none is sorted out,
@@ -72,7 +73,7 @@ void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& 
     if (near < count) contact::clear_separated(pairs.is_touching + p, count, stride, columns);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(near);
     if (scene.work != nullptr) {
-      note_work(scene, law, contacts.slots.data() + p, nullptr, count, columns, force);
+      note_work(scene, law, contacts.slots.data() + p, nullptr, count, has_scales, columns, force);
     }
     contact::scatter_pairs(contacts.slots.data() + p, count, has_scales, columns, force);
   }
@@ -106,7 +107,7 @@ void ContactForces::new_pairs(const ContactScene& scene, const LawRange& range,
       record_work(scene, law, pairs, touching, 0, count, columns, *tile.energy);
     }
     if (scene.work != nullptr) {
-      note_work(scene, law, contacts.slots.data(), touching, count, columns, force);
+      note_work(scene, law, contacts.slots.data(), touching, count, has_scales, columns, force);
     }
     contact::store_history(pairs, touching, count, groups, columns);
     contact::scatter_pairs(contacts.slots.data(), touching, count, has_scales, columns, force);

@@ -72,7 +72,8 @@ class ContactForces {
                         OfTile& tile, double* force);
   static void note_work(const ContactScene& scene, const PairLaws& law,
                         const contact::Places* places, const std::int32_t* contacts,
-                        std::size_t count, contact::BatchColumns& columns, double* force);
+                        std::size_t count, bool has_scales, contact::BatchColumns& columns,
+                        double* force);
   void new_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
                  OfTile& tile, double* force);
   // wall_forces.cpp

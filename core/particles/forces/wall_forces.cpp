@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/energy/elastic_energy.hpp"
 #include "particles/forces/contact_forces.hpp"
+#include "particles/forces/handover.hpp"
 #include "particles/forces/law_stages.hpp"
 #include "particles/forces/wall_contacts.hpp"
 #include "particles/work/dissipation.hpp"
@@ -93,6 +94,7 @@ struct ContactForces::WallBatch {
   void add(std::int32_t q, double overlap, const bodies::SurfacePoint& near) {
     const auto u = static_cast<std::size_t>(q);
     const std::int32_t row = list.a[u];
+    if (list.is_touching[u] == 0 && surface.abutting != nullptr) take_over(u);
     is_new[count] = list.is_touching[u] == 0;
     list.is_touching[u] = 1;
     contacts[count] = q;
@@ -109,6 +111,9 @@ struct ContactForces::WallBatch {
     tile.largest_overlap = std::max(tile.largest_overlap, overlap / grain.radius);
     if (++count == k_batch) evaluate();
   }
+  [[nodiscard]] bool reaches(const Surface& other, std::int32_t row) const;
+  void take_over(std::size_t entry) const;
+  [[nodiscard]] bool is_passed_on(std::size_t entry) const;
   void record_work();
   void record_separated(std::size_t entry);
   void evaluate() {
@@ -138,6 +143,37 @@ struct ContactForces::WallBatch {
     }
   }
 };
+
+bool ContactForces::WallBatch::reaches(const Surface& other, std::int32_t row) const {
+  const double* const p = scene.particles.position(static_cast<std::size_t>(row));
+  const double reach = p[3] + law.range;
+  return other.contact({p[0], p[1], p[2]}, reach).distance < reach;
+}
+
+/// A contact that begins goes on with that of a flush body which has just ended.
+void ContactForces::WallBatch::take_over(std::size_t entry) const {
+  const std::int32_t row = list.a[entry];
+  for (std::size_t e = 0; e < list.count; ++e) {
+    if (list.a[e] != row || list.is_touching[e] == 0) continue;
+    const Surface& other = scene.surfaces[static_cast<std::size_t>(list.b[e])];
+    if (!may_hand_over(other, surface) || reaches(other, row)) continue;
+    hand_over(list, e, entry);
+    return;
+  }
+}
+
+/// Whether one that has ended goes on with a flush body, which has not been looked at yet.
+bool ContactForces::WallBatch::is_passed_on(std::size_t entry) const {
+  const std::int32_t row = list.a[entry];
+  for (std::size_t e = 0; surface.abutting != nullptr && e < list.count; ++e) {
+    if (list.a[e] != row || list.is_touching[e] != 0) continue;
+    const Surface& other = scene.surfaces[static_cast<std::size_t>(list.b[e])];
+    if (!may_hand_over(surface, other) || !reaches(other, row)) continue;
+    hand_over(list, entry, e);
+    return true;
+  }
+  return false;
+}
 
 /// The energy account of the batch.
 void ContactForces::WallBatch::record_work() {
@@ -195,7 +231,7 @@ void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& c
       const double overlap = radius - near.distance[n];
       if (overlap > -law.range) {
         batch.add(q, overlap, near.point(n));
-      } else if (list.is_touching[u] != 0) {
+      } else if (list.is_touching[u] != 0 && !batch.is_passed_on(u)) {
         if (tile.energy != nullptr) batch.record_separated(u);
         list.is_touching[u] = 0;
         std::fill_n(list.history + u * list.history_stride, list.history_stride, 0.0);

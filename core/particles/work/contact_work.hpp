@@ -26,7 +26,7 @@ class ContactWork {
   [[nodiscard]] bool is_on() const { return is_on_; }
   [[nodiscard]] std::size_t walls() const { return walls_; }
 
-  /// Of contacts with other particles: this one's half.
+  /// Of contacts with other particles: this one's half, per real particle.
   [[nodiscard]] Energy with_particles(std::size_t row) const {
     return of_rows_[row].with_particles;
   }

@@ -59,14 +59,19 @@ void find_dissipation(const PairLaws& law, BatchColumns& columns, std::size_t co
 }
 
 void scatter_dissipation(const Dissipation& out, const contact::Places* places,
-                         const std::int32_t* contacts, std::size_t count, double* force) {
+                         const std::int32_t* contacts, std::size_t count, bool has_scales,
+                         BatchColumns& columns, double* force) {
+  const double* const scale_i = columns.column(B::scale_i);
+  const double* const scale_j = columns.column(B::scale_j);
+  const auto add = [&](std::int32_t side, std::size_t q, double half) {
+    double* row = force + k_force_row * static_cast<std::size_t>(side);
+    row[3] += half * out.normal[q];
+    row[7] += half * out.tangential[q];
+  };
   for (std::size_t q = 0; q < count; ++q) {
     const contact::Places& place = contacts == nullptr ? places[q] : places[contacts[q]];
-    for (const std::int32_t side : {place.a, place.b}) {
-      double* row = force + k_force_row * static_cast<std::size_t>(side);
-      row[3] += 0.5 * out.normal[q];
-      row[7] += 0.5 * out.tangential[q];
-    }
+    add(place.a, q, has_scales ? 0.5 * scale_i[q] : 0.5);
+    add(place.b, q, has_scales ? 0.5 * scale_j[q] : 0.5);
   }
 }
 

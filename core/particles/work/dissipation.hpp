@@ -23,9 +23,12 @@ struct Dissipation {
 void find_dissipation(const PairLaws& law, contact::BatchColumns& columns, std::size_t count,
                       double step, std::size_t first, Dissipation& out);
 
-/// Adds half of it to each side, in the fourth and eighth numbers of the rows of forces. `contacts`
-/// may be null: the contacts stand in the order of `places`.
+/// Adds half of it to each side, in the fourth and eighth numbers of the rows of forces; where
+/// statistical weights differ (`has_scales`), the share of its half that goes with the share of the
+/// force that the side feels: the work per real grain. `contacts` may be null: the contacts stand
+/// in the order of `places`.
 void scatter_dissipation(const Dissipation& out, const contact::Places* places,
-                         const std::int32_t* contacts, std::size_t count, double* force);
+                         const std::int32_t* contacts, std::size_t count, bool has_scales,
+                         contact::BatchColumns& columns, double* force);
 
 }  // namespace dust::particles

@@ -219,3 +219,34 @@ TEST_CASE("dust on grains shall be booked from its coming to its leaving") {
   CHECK(std::abs(coarse.error()) < 1e-15);
   CHECK(std::abs(fine.error()) < 1e-15);
 }
+
+TEST_CASE("grains of different weights shall have their losses by what each real grain costs") {
+  // One stands for itself, the other is one of many copies of a rare grain, on the same steps and
+  // on finer ones: what it meets loses as much less to it.
+  for (const double diameter : {3e-3, 0.2e-3}) {
+    for (const double weight : {1.0, 0.05}) {
+      CAPTURE(diameter);
+      CAPTURE(weight);
+      DemRig rig = dusty_rig();
+      rig.diameters = {diameter, k_diameter};
+      rig.law(0, 0, 0.5, 0.4);
+      const auto dem = rig.make();
+      dem->insert({{{.position = {0, 0, 0}, .diameter = k_diameter},
+                    {.position = {0, 0, 0.5 * k_diameter + 0.8 * diameter},
+                     .velocity = {0, 0, -2},
+                     .diameter = diameter,
+                     .weight = weight}}});
+      CHECK((dem->class_steps()[0].level > 0) == (diameter < 1e-3));
+      const auto all = [&] { return energy(grain(*dem, 0)) + weight * energy(grain(*dem, 1)); };
+      const double before = all();
+      run(*dem, 2e-3);
+      const double lost = before - all();
+      CHECK(lost > 0.1 * before);
+      const auto work = [&](std::int64_t id) {
+        return dem->contact_work().with_particles(row_of(*dem, id)).sum();
+      };
+      CHECK(work(0) + weight * work(1) == approx(lost).epsilon(0.015));
+      CHECK(work(0) == approx(weight * work(1)).epsilon(1e-9));
+    }
+  }
+}
