@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coupling/stencils/lattice.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace dust::coupling {
@@ -38,6 +39,7 @@ Lattice::Lattice(const fluid::Grid& grid, const fluid::CellField& open_fraction)
 void Lattice::set_open_fraction(const fluid::CellField& open_fraction) {
   open_cell_ = open_fraction;
   has_bodies_ = false;
+  for (auto& faces : blocked_) faces.clear();
   for (int k = 0; k < grid_.count[2]; ++k) {
     for (int j = 0; j < grid_.count[1]; ++j) {
       for (int i = 0; i < grid_.count[0]; ++i) {
@@ -66,9 +68,16 @@ void Lattice::set_open_fraction(const fluid::CellField& open_fraction) {
 }
 
 void Lattice::close(std::span<const fluid::BlockedFace> faces) {
+  for (auto& blocked : blocked_) blocked.clear();
   for (const fluid::BlockedFace& face : faces) {
     open_face_[static_cast<std::size_t>(face.axis)][static_cast<std::size_t>(face.at)] = 0.0F;
+    blocked_[static_cast<std::size_t>(face.axis)].push_back(face.at);
   }
+  for (auto& blocked : blocked_) std::sort(blocked.begin(), blocked.end());
+}
+
+bool Lattice::is_blocked(std::size_t d, std::ptrdiff_t face) const {
+  return std::binary_search(blocked_[d].begin(), blocked_[d].end(), face);
 }
 
 std::ptrdiff_t Lattice::open_image(int i, int j, int k) const {
@@ -128,8 +137,16 @@ std::array<int, 3> Lattice::indices(std::ptrdiff_t cell) const {
 
 std::array<std::ptrdiff_t, 6> Lattice::open_neighbours(std::ptrdiff_t cell) const {
   const auto [i, j, k] = indices(cell);
-  return {open_cell(i - 1, j, k), open_cell(i + 1, j, k), open_cell(i, j - 1, k),
-          open_cell(i, j + 1, k), open_cell(i, j, k - 1), open_cell(i, j, k + 1)};
+  std::array<std::ptrdiff_t, 6> open{open_cell(i - 1, j, k), open_cell(i + 1, j, k),
+                                     open_cell(i, j - 1, k), open_cell(i, j + 1, k),
+                                     open_cell(i, j, k - 1), open_cell(i, j, k + 1)};
+  // A face has the index of the cell above it.
+  for (std::size_t d = 0; d < 3; ++d) {
+    if (blocked_[d].empty()) continue;
+    if (is_blocked(d, cell)) open[2 * d] = -1;
+    if (is_blocked(d, storage(i + (d == 0), j + (d == 1), k + (d == 2)))) open[2 * d + 1] = -1;
+  }
+  return open;
 }
 
 void Lattice::close_periodic(int d, std::vector<double>& field) const {

@@ -101,7 +101,8 @@ class Lattice {
   [[nodiscard]] std::array<int, 3> indices(std::ptrdiff_t cell) const;
   /// Open cell nearest to `position` [m] among the 125 around it, -1 if there is none.
   [[nodiscard]] std::ptrdiff_t nearest_open_cell(const double* position) const;
-  /// The six neighbours of a cell given by padded index, -1 where there is no open cell.
+  /// The six neighbours of a cell given by padded index, -1 where there is no open cell or a thin
+  /// body lies between.
   [[nodiscard]] std::array<std::ptrdiff_t, 6> open_neighbours(std::ptrdiff_t cell) const;
 
   /// Place of a point [m]; points outside the domain are taken to its side or wrapped.
@@ -215,6 +216,7 @@ class Lattice {
   [[nodiscard]] bool is_inside(std::size_t d, int i) const {
     return static_cast<unsigned>(i) < static_cast<unsigned>(grid_.count[d]);
   }
+  [[nodiscard]] bool is_blocked(std::size_t d, std::ptrdiff_t face) const;
   /// open_cell() of a cell outside the grid.
   [[nodiscard]] std::ptrdiff_t open_image(int i, int j, int k) const;
   static std::ptrdiff_t offset(const Offsets& table, int index) {
@@ -241,8 +243,9 @@ class Lattice {
   bool has_bodies_ = false;
   NearWalls walls_;
   std::array<std::vector<float>, 3> open_face_;
-  std::array<Offsets, 3> cells_;    ///< wrapped or clamped
-  std::array<Offsets, 3> padded_;   ///< where the array holds it
+  std::array<std::vector<std::ptrdiff_t>, 3> blocked_;  ///< by thin bodies; ascending
+  std::array<Offsets, 3> cells_;                        ///< wrapped or clamped
+  std::array<Offsets, 3> padded_;                       ///< where the array holds it
   std::array<Offsets, 3> storage_;  ///< wrapped where periodic, else where the array holds it
   std::array<std::vector<std::int32_t>, 3> short_storage_;
   std::array<AxisView, 3> axes_;

@@ -80,6 +80,36 @@ TEST_CASE("grains on a sheet shall leave the fluid under it alone") {
   }
 }
 
+TEST_CASE("what finds no room over a sheet shall not go under it") {
+  // A layer one and a half cells deep with 0.6 of solids on a sheet just over the middle of its
+  // cells: all of it counts for the cells from the next face on, which have no room for it.
+  constexpr double spacing = 5.8e-4;
+  for (const double height : {0.0226, 0.0238}) {
+    CAPTURE(height);
+    TwoWay it = air_beside_sheet(height, "centre");
+    it.hold_fluid();
+    const double floor = height + 0.5 * k_thickness + 0.5 * k_diameter;
+    for (double z = floor; z < height + 1.5 * k_cell; z += spacing) {
+      for (double y = 0.5 * spacing; y < 4 * k_cell; y += spacing) {
+        for (double x = 0.5 * spacing; x < k_cells * k_cell; x += spacing) {
+          it.world.grains.add({x, y, z}, {}, k_diameter);
+        }
+      }
+    }
+    it.step({}, true);
+    double solids = 0.0, largest = 0.0;
+    it.world.for_cells([&](int i, int j, int k) {
+      const std::ptrdiff_t o = it.world.grid.index(i, j, k);
+      const double own = 1.0 - it.world.coupling->void_fraction()[o];
+      if (k < first_layer(height)) CHECK(own == 0.0);
+      solids += own * it.world.grid.cell_volume() * it.solver->open_fraction()[o];
+      largest = std::max(largest, own);
+    });
+    CHECK(largest > 0.699);  // there was something to move
+    CHECK(solids == approx(it.world.grains.solid_volume()).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("a grain on a sheet shall not feel the fluid under it") {
   for (const double height : {0.0202, 0.0238, 0.0200}) {
     CAPTURE(height);
