@@ -160,6 +160,12 @@ void Coupling::set_open_fraction(const fluid::CellField& open_fraction) {
   if (const auto* bodies = impl_->sides.bodies()) impl_->lattice.close(bodies->faces());
 }
 
+void Coupling::bodies_changed(const fluid::CellField& open_fraction) {
+  const std::vector<double> solids = impl_->void_fraction.solids();
+  set_open_fraction(open_fraction);
+  impl_->void_fraction.keep_solids(solids);
+}
+
 void Coupling::start(const particles::GrainRows& rows) {
   Impl& s = *impl_;
   const particles::GrainRows grains = s.sides.take(rows);

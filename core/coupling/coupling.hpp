@@ -73,6 +73,9 @@ class Coupling {
 
   /// After bodies have moved, before begin_step(): share of each cell outside them.
   void set_open_fraction(const fluid::CellField& open_fraction);
+  /// The same where a body was taken away: the void fraction that is kept is of the same solids in
+  /// what is open now, so that the air does not rush in as if they had gone.
+  void bodies_changed(const fluid::CellField& open_fraction);
 
   /// Before the first begin_step(), once: the void fraction round grains that are there at the
   /// start. They push nothing aside in the first fluid step. Throws as begin_step() does.

@@ -193,6 +193,24 @@ void VoidFractionField::add_after(std::ptrdiff_t cell, double volume) {
   eps = std::min(1.0, eps - volume / (lattice_.open_fraction(cell) * lattice_.cell_volume()));
 }
 
+std::vector<double> VoidFractionField::solids() const {
+  std::vector<double> solids;
+  solids.reserve(after_.active.size());
+  for (const std::ptrdiff_t cell : after_.active) {
+    solids.push_back((1.0 - after_.eps[cell]) * lattice_.open_fraction(cell) *
+                     lattice_.cell_volume());
+  }
+  return solids;
+}
+
+void VoidFractionField::keep_solids(const std::vector<double>& solids) {
+  for (std::size_t n = 0; n < after_.active.size(); ++n) {
+    const std::ptrdiff_t cell = after_.active[n];
+    const double open = lattice_.open_fraction(cell) * lattice_.cell_volume();
+    if (open > 0.0) after_.eps[cell] = 1.0 - solids[n] / open;
+  }
+}
+
 void VoidFractionField::save(sdk::ArchiveWriter& archive) const {
   const auto save_state = [&](const char* cells, const char* values, const State& state) {
     std::vector<std::int64_t> indices(state.active.begin(), state.active.end());

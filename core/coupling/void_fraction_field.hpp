@@ -35,6 +35,10 @@ class VoidFractionField {
   /// Adds solids [m3], which may be negative, to a cell after deposit(), where a grain is not
   /// spread by the rule.
   void add_after(std::ptrdiff_t cell, double volume);
+  /// Solids [m3] of filled_cells().
+  [[nodiscard]] std::vector<double> solids() const;
+  /// after() of the same solids in cells of another open volume: a body was taken away.
+  void keep_solids(const std::vector<double>& solids);
   [[nodiscard]] const fluid::CellField& before() const { return before_.eps; }
   [[nodiscard]] const fluid::CellField& after() const { return after_.eps; }
   /// Void fraction that a particle in the cell `own` has around it; sets `wide` for one larger

@@ -171,7 +171,7 @@ void FluidStage::keep_for_particles() {
 
 void FluidStage::bodies_changed(double time) {
   solver_->bodies_changed(time);
-  open_fraction_changed();
+  if (coupling_) coupling_->bodies_changed(solver_->open_fraction());
 }
 
 const std::vector<float>& FluidStage::momentum_exchange() {
