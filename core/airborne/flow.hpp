@@ -21,6 +21,7 @@ struct WallPiece {
   std::int32_t cell = 0;
   std::int32_t surface = 0;  ///< number of the side or body
   sdk::Vec3 area;            ///< [1/m] out of the gas, over the volume of the whole cell
+  std::int32_t face = -1;    ///< of the grid, in a side, which gas may pass; -1: of a body
 };
 
 /// How the surface of a piece of wall runs. What stands has no velocity.

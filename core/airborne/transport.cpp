@@ -160,7 +160,17 @@ void Transport::concentration(const fluid::Grid& grid, const fluid::CellField& m
   });
 }
 
-/// At walls the gas is at rest, and there is no drift by inertia towards them.
+/// [1/s] The gas that comes in through the side which a piece of wall belongs to, over the volume
+/// of the cell; negative: goes out.
+double Transport::inflow_at(const Flow& flow, const WallPiece& piece) const {
+  if (piece.face < 0) return 0.0;
+  const int d = piece.surface / 2;
+  const double along = flow.throughflow.component[at(d)][at(piece.face)];
+  return (piece.surface % 2 == 0 ? along : -along) / grid_.spacing[d];
+}
+
+/// At walls the gas is at rest, and there is no drift by inertia towards them. A side that holds
+/// grains and lets gas in takes only what settles faster than that.
 void Transport::find_drive(const Flow& flow, const DustClass& dust) {
   const bool has_inertia = inertia_.gas != nullptr && dust.inertia_time > 0.0;
   if (has_inertia) inertia_.limited.assign(grid_.size, 0.0F);
@@ -184,9 +194,10 @@ void Transport::find_drive(const Flow& flow, const DustClass& dust) {
   std::fill(deposition_.begin(), deposition_.end(), 0.0);
   for (std::size_t n = 0; n < flow.walls.size(); ++n) {
     const WallPiece& piece = flow.walls[n];
-    wall_rate_[n] = std::max(0.0, dot(dust.drift, piece.area));
+    const double inflow = inflow_at(flow, piece);
+    wall_rate_[n] = std::max(0.0, dot(dust.drift, piece.area) - std::max(0.0, inflow));
     const double area = norm(piece.area);
-    if (flow.smooth_wall_viscosity > 0.0 && area > 0.0) {
+    if (flow.smooth_wall_viscosity > 0.0 && area > 0.0 && inflow == 0.0) {
       wall_rate_[n] =
           area * deposition_velocity(dust, dot(dust.drift, piece.area) / area,
                                      flow.friction_velocity[n], flow.smooth_wall_viscosity);

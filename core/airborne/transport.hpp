@@ -58,6 +58,7 @@ class Transport {
   void flux_row(const Flow& flow, const DustClass& dust, int d, int j, int k);
   void euler(const Flow& flow, const std::vector<double>& source, double dt, double weight,
              fluid::CellField& mass, Losses& losses);
+  [[nodiscard]] double inflow_at(const Flow& flow, const WallPiece& piece) const;
   void take_from_sides(double amount, Losses& losses, const Flow& flow) const;
   void fill_halo();
   void wrap_faces(std::size_t d, std::vector<double>& values) const;

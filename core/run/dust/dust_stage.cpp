@@ -117,10 +117,12 @@ void DustStage::add_sides(const std::array<int, 3>& cell) {
     if (grid.is_periodic[d] || cell[d] != (is_high ? grid.count[d] - 1 : 0)) continue;
     if (setup_.domain.sides[side].grains != scenario::GrainSide::wall) continue;
     const int axis = static_cast<int>(d);
-    const double open = passable_area_.component[d][at(is_high ? o + grid.stride[d] : o)];
+    const std::ptrdiff_t face = is_high ? o + grid.stride[d] : o;
+    const double open = passable_area_.component[d][at(face)];
     sdk::Vec3 normal;
     normal[axis] = (is_high ? open : -open) / grid.spacing[axis];
-    pieces_.push_back({static_cast<std::int32_t>(o), static_cast<std::int32_t>(side), normal});
+    pieces_.push_back({static_cast<std::int32_t>(o), static_cast<std::int32_t>(side), normal,
+                       static_cast<std::int32_t>(face)});
     if (wall_shear_) wall_shear_->add_side(cell, axis, is_high ? -1.0 : 1.0);
   }
 }

@@ -83,6 +83,16 @@ class Box {
       }
     }
   }
+  /// A floor that holds grains, through which gas comes in at `speed` [m/s].
+  void add_sieve(double speed) {
+    for (int j = 0; j < grid_.count[1]; ++j) {
+      for (int i = 0; i < grid_.count[0]; ++i) {
+        const auto cell = static_cast<std::int32_t>(grid_.index(i, j, 0));
+        flow_.walls.push_back({cell, 4, {0, 0, -1.0 / grid_.spacing.z}, cell});
+        flow_.throughflow.component[2][static_cast<std::size_t>(cell)] = speed;
+      }
+    }
+  }
   void run(double end, int steps) {
     Transport transport(grid_);
     transport.prepare(flow_);

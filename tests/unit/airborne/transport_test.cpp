@@ -106,6 +106,24 @@ TEST_CASE("in still gas a clear front shall sink and the floor shall take what s
   CHECK(box.in_air() < 1e-3 * before);
 }
 
+TEST_CASE("a floor that lets gas in shall take only what sinks faster") {
+  constexpr double k_sinking = 0.1, k_start = 2.0;
+  for (const double speed : {0.0, 0.04, 0.1, 0.25}) {
+    CAPTURE(speed);
+    Box box({2, 2, 50}, {0.04, 0.04, 1}, {true, true, false});
+    box.dust().drift = {0, 0, -k_sinking};
+    box.set_velocity([&](Vec3) { return Vec3{0, 0, speed}; });
+    box.add_sieve(speed);
+    box.set_mass([](Vec3) { return k_start; });
+    const double before = box.in_air();
+    box.run(2.0, 40);
+    const double on_floor =
+        std::accumulate(box.losses().walls.begin(), box.losses().walls.end(), 0.0) * 0.02 / 4;
+    CHECK(on_floor == test::approx(k_start * std::max(0.0, k_sinking - speed) * 2.0).epsilon(1e-9));
+    CHECK(box.in_air() + box.lost() == test::approx(before).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("settling against diffusion shall leave the exponential profile") {
   constexpr double k_speed = 0.02, k_diffusivity = 2e-3;
   Box box({1, 1, 40}, {0.01, 0.01, 0.4}, {true, true, false});
