@@ -21,8 +21,6 @@ constexpr std::size_t k_material_column = 0;
 
 }  // namespace
 
-double scaled_error(double error, double factor) { return error < 0.0 ? error : error * factor; }
-
 DustRates::DustRates(const scenario::Setup& setup, const DustStage& dust,
                      const LiberationStage* liberation, const particles::Dem& particles,
                      double steady_after)
@@ -123,7 +121,7 @@ void DustRates::report_part(sdk::FigureSink& sink, const std::string& name,
                             std::size_t column) const {
   const double rate = means_.mean(column);
   const double error = means_.error(column);
-  sink.figure(name + "/rate", k_hour * rate, "kg/h", scaled_error(error, k_hour),
+  sink.figure(name + "/rate", k_hour * rate, "kg/h", sdk::scaled_error(error, k_hour),
               sdk::detail(sdk::Quantity::mass_rate));
   const double material = means_.mean(k_material_column);
   if (!(material > 0.0)) return;
@@ -131,7 +129,7 @@ void DustRates::report_part(sdk::FigureSink& sink, const std::string& name,
   const bool is_even = means_.is_even(k_material_column);
   const double of_ratio = means_.ratio_error(column, k_material_column);
   sink.figure(name + "/per_load", is_even ? per_load * rate : k_unknown, "g/t",
-              is_even ? scaled_error(of_ratio, k_grams_per_tonne) : sdk::k_feed_not_even,
+              is_even ? sdk::scaled_error(of_ratio, k_grams_per_tonne) : sdk::k_feed_not_even,
               sdk::detail(sdk::Quantity::mass_per_load));
 }
 
@@ -143,9 +141,10 @@ void DustRates::report(sdk::FigureSink& sink) const {
   for (std::size_t p = 0; p < parts_.size(); ++p) {
     const std::size_t first = 1 + p * (1 + classes.size());
     const std::string name = parts_[p].way + "/" + parts_[p].name;
-    // Surfaces that no dust meets are left out; a way out without dust is an answer.
+    // Surfaces that no dust meets are left out; a way out without dust is an answer, and so is a
+    // surface that gives more than it takes.
     const bool is_way_out = parts_[p].way == k_left || parts_[p].way == k_drawn_out;
-    if (parts_[p].total && !is_way_out && !(means_.mean(first) > 0.0)) continue;
+    if (parts_[p].total && !is_way_out && means_.mean(first) == 0.0) continue;
     report_part(sink, name, first);
     for (std::size_t n = 0; n < classes.size(); ++n) {
       report_part(sink, name + "/class/" + classes[n], first + 1 + n);

@@ -17,8 +17,6 @@
 
 namespace dust::run {
 
-/// A standard error times `factor`; where there is none, why (sdk::BatchMeans) stays as it is.
-double scaled_error(double error, double factor);
 /// The value of an amount per load of a feed that is not even.
 inline constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 

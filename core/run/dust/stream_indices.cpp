@@ -30,7 +30,9 @@ StreamIndices::StreamIndices(const scenario::Setup& setup, const FluidStage& flu
     if (std::abs(setup.gravity[d]) > std::abs(setup.gravity[axis_])) axis_ = d;
   }
   down_ = setup.gravity[axis_] > 0.0 ? 1.0 : -1.0;
-  if (setup.gravity[axis_] != 0.0) {
+  // Where the fluid does not feel the grains it is not drawn along by them, nor is there a void
+  // fraction.
+  if (setup.gravity[axis_] != 0.0 && !setup.fluid->is_one_way) {
     levels_ = static_cast<std::size_t>(fluid.grid().count[static_cast<std::size_t>(axis_)]);
   }
   now_.assign(first_level_ + k_columns * levels_, 0.0);
@@ -143,8 +145,9 @@ void StreamIndices::report_levels(sdk::FigureSink& sink) const {
   sink.figure("entrained_air/flow", air(most), "m3/s", error,
               sdk::detail(sdk::Quantity::volume_rate));
   sink.figure("entrained_air/per_load", is_even ? k_tonne / load() * air(most) : k_unknown, "m3/t",
-              is_even ? scaled_error(means_.ratio_error(column(most, air_flow), k_load), k_tonne)
-                      : sdk::k_feed_not_even,
+              is_even
+                  ? sdk::scaled_error(means_.ratio_error(column(most, air_flow), k_load), k_tonne)
+                  : sdk::k_feed_not_even,
               sdk::FigureRole{});
   sink.figure("entrained_air/height", height(most), "m", sdk::k_no_estimate,
               sdk::detail(sdk::Quantity::length));

@@ -40,7 +40,10 @@ class Rotate final : public sdk::Motion {
     return {.name = "rotate",
             .version = "1.0",
             .summary = "A body that turns about a fixed axis, until a time or an angle.",
-            .equation = "x = p + R(a, \\omega (t - t_0)) (x_0 - p)",
+            .equation = R"(x = p + R(a, \varphi) (x_0 - p),\ \tau = \min(t, t_{stop}) - t_0,\ )"
+                        R"(\varphi = \omega \tau^2/(2 r)\ (\tau < r),\ )"
+                        R"(\omega (\tau - r/2)\ (\tau \ge r),\ )"
+                        R"(|\varphi| \le \varphi_{turn})",
             .source = "kinematics; own derivation"};
   }
 

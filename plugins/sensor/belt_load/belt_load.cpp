@@ -107,10 +107,10 @@ class BeltLoad final : public sdk::Sensor {
                   q == 0 ? sdk::overview(k_quantities[c], 3) : sdk::detail(k_quantities[c]));
     }
     if (p_.belt_speed == 0.0) return;
-    const double error = loaded_.error(2);
     const double ratio = loaded_.known_mean(2) / p_.belt_speed;
     sink.figure("speed_over_belt_speed", ratio, "1",
-                sdk::error_beside(ratio, error < 0.0 ? -1.0 : error / std::abs(p_.belt_speed)),
+                sdk::error_beside(
+                    ratio, sdk::scaled_error(loaded_.error(2), 1.0 / std::abs(p_.belt_speed))),
                 sdk::overview(sdk::Quantity::ratio, 4));
   }
 

@@ -88,11 +88,16 @@ class Blockage final : public sdk::Sensor {
     const sdk::FigureRole first = sdk::overview(sdk::Quantity::mass, 1);
     held.towards = first.towards;
     held.index = first.index;
-    sink.figure("mass_held", means_.mean(0), "kg", means_.error(0), held);
+    const auto mean = [&](const char* name, std::size_t column, const char* unit,
+                          const sdk::FigureRole& role) {
+      const double value = means_.known_mean(column);
+      sink.figure(name, value, unit, sdk::error_beside(value, means_.error(column)), role);
+    };
+    mean("mass_held", 0, "kg", held);
     sink.figure("mass_held_at_end", values_[0], "kg", -1.0, stock());
     sink.figure("mass_held_largest", largest_, "kg", -1.0, stock());
-    sink.figure("inflow", means_.mean(1), "kg/s", means_.error(1), k_flow);
-    sink.figure("outflow", means_.mean(2), "kg/s", means_.error(2), k_flow);
+    mean("inflow", 1, "kg/s", k_flow);
+    mean("outflow", 2, "kg/s", k_flow);
     sink.figure("growth", growth.slope, "kg/s", growth.error,
                 sdk::overview(sdk::Quantity::mass_rate, 2));
     const double share = means_.mean(1) > 0.0 ? growth.slope / means_.mean(1) : sdk::k_no_value;

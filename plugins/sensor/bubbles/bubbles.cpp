@@ -103,8 +103,11 @@ class Bubbles final : public sdk::Sensor {
     }
   }
   void summary(sdk::FigureSink& sink) const override {
-    const auto error = [&](std::size_t n) {
-      return means_.mean(n) != 0.0 ? means_.error(n) : -1.0;
+    const auto mean = [&](std::size_t n) {
+      const double value = means_.known_mean(n);
+      const double error = value != 0.0 ? means_.error(n) : sdk::k_no_estimate;
+      sink.figure(k_names[n], value, "1", sdk::error_beside(value, error),
+                  sdk::detail(k_quantities[n]));
     };
     // Of no bubble there is neither.
     const auto ratio = [&](std::size_t column, std::size_t above, std::size_t below) {
@@ -113,8 +116,8 @@ class Bubbles final : public sdk::Sensor {
       sink.figure(k_names[column], value, k_units[column],
                   sdk::error_beside(value, sdk::k_no_estimate), sdk::detail(k_quantities[column]));
     };
-    sink.figure("number", means_.mean(0), "1", error(0), sdk::detail(k_quantities[0]));
-    sink.figure("volume_share", means_.mean(1), "1", error(1), sdk::detail(k_quantities[1]));
+    mean(0);
+    mean(1);
     ratio(2, 2, 0);
     ratio(3, 4, 3);
   }

@@ -157,7 +157,7 @@ class CarryBack final : public sdk::Sensor {
         k_stock.of(sdk::Quantity::mass), k_stock.of(sdk::Quantity::number)};
     const std::size_t first = k_columns * group;
     const auto error = [&](std::size_t column) {
-      return means_.mean(column) > 0.0 ? means_.error(column) : -1.0;
+      return means_.mean(column) > 0.0 ? means_.error(column) : sdk::k_no_estimate;
     };
     for (std::size_t q = 0; q < k_columns; ++q) {
       sink.figure(prefix + k_names[q], means_.known_mean(first + q), k_units[q], error(first + q),
@@ -176,9 +176,13 @@ class CarryBack final : public sdk::Sensor {
     }
     const double per_flow =
         emitted() > 0.0 ? k_grams_per_tonne * means_.duration() / emitted() : 0.0;
-    const double flow_error = error(first);
+    // Of a batch the load is known; that of a feed varies with what is carried back.
+    const std::size_t feed = means_.columns() - 1;
+    const bool is_of_feed = knows_feed() && means_.mean(first) > 0.0 && means_.is_even(feed);
     sink.figure(prefix + "grams_per_tonne", means_.known_mean(first) * per_flow, "g/t",
-                flow_error < 0.0 ? -1.0 : flow_error * per_flow, role);
+                is_of_feed ? sdk::scaled_error(means_.ratio_error(first, feed), k_grams_per_tonne)
+                           : sdk::scaled_error(error(first), per_flow),
+                role);
   }
 
   Parameters p_;

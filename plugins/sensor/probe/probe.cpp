@@ -88,9 +88,10 @@ class Probe final : public sdk::Sensor {
     for (std::size_t n = 0; n < places_.size(); ++n) {
       const std::string place = "place_" + std::to_string(n + 1) + "/";
       for (std::size_t c = 0; c < k_columns; ++c) {
-        const double mean = means_.mean(n * k_columns + c);
-        sink.figure(place + k_names[c], mean, k_units[c],
-                    mean != 0.0 ? means_.error(n * k_columns + c) : -1.0,
+        const std::size_t column = n * k_columns + c;
+        const double mean = means_.known_mean(column);
+        const double error = mean != 0.0 ? means_.error(column) : sdk::k_no_estimate;
+        sink.figure(place + k_names[c], mean, k_units[c], sdk::error_beside(mean, error),
                     sdk::detail(k_quantities[c]));
       }
     }

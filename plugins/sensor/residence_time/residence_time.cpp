@@ -103,10 +103,11 @@ class ResidenceTime final : public sdk::Sensor {
       figure(name, times_.quantile(p), times_.quantile_error(p), time);
     }
     sink.figure("grains", times_.count(), "1", -1.0, sdk::detail(sdk::Quantity::number));
-    const double mass = means_.mean(0);
-    const double flow = means_.mean(1);
-    sink.figure("mass_inside", mass, "kg", means_.error(0), stock(sdk::Quantity::mass));
-    sink.figure("mass_flow_out", flow, "kg/s", means_.error(1),
+    const double mass = means_.known_mean(0);
+    const double flow = means_.known_mean(1);
+    sink.figure("mass_inside", mass, "kg", sdk::error_beside(mass, means_.error(0)),
+                stock(sdk::Quantity::mass));
+    sink.figure("mass_flow_out", flow, "kg/s", sdk::error_beside(flow, means_.error(1)),
                 sdk::detail(sdk::Quantity::mass_rate));
     figure("holdup_over_flow", formula::holdup_time(mass, flow), sdk::k_no_estimate, time);
     sink.figure("longest_inside", oldest_, "s", -1.0, time);

@@ -83,13 +83,15 @@ class Stress final : public sdk::Sensor {
   }
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t f = 0; f < k_components; ++f) {
-      sink.figure(k_names[f], means_.mean(f), "Pa", error(f), sdk::detail(sdk::Quantity::pressure));
+      sink.figure(k_names[f], means_.known_mean(f), "Pa", error(f),
+                  sdk::detail(sdk::Quantity::pressure));
       sink.figure(std::string(k_names[f]) + "_at_end", totals_[f], "Pa", sdk::Quantity::pressure);
     }
     double p = 0.0;
-    for (std::size_t f = 0; f < 3; ++f) p += means_.mean(f) / 3.0;
-    sink.figure("pressure", p, "Pa", sdk::Quantity::pressure);
-    sink.figure("bulk_density", means_.mean(k_density), "kg/m3", error(k_density),
+    for (std::size_t f = 0; f < 3; ++f) p += means_.known_mean(f) / 3.0;
+    sink.figure("pressure", p, "Pa", sdk::error_beside(p, sdk::k_no_estimate),
+                sdk::detail(sdk::Quantity::pressure));
+    sink.figure("bulk_density", means_.known_mean(k_density), "kg/m3", error(k_density),
                 sdk::detail(sdk::Quantity::mass_concentration));
   }
   void report(sdk::ReportSink& sink) const override {
@@ -144,7 +146,8 @@ class Stress final : public sdk::Sensor {
   static double pressure(const double* f) { return (f[0] + f[1] + f[2]) / 3.0; }
 
   [[nodiscard]] double error(std::size_t field) const {
-    return means_.mean(field) != 0.0 ? means_.error(field) : -1.0;
+    const double mean = means_.known_mean(field);
+    return sdk::error_beside(mean, mean != 0.0 ? means_.error(field) : sdk::k_no_estimate);
   }
 
   static constexpr std::size_t k_outside = std::numeric_limits<std::size_t>::max();

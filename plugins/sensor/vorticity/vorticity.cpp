@@ -85,8 +85,9 @@ class Vorticity final : public sdk::Sensor {
   }
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_columns; ++n) {
-      const double mean = means_.mean(n);
-      sink.figure(k_names[n], mean, "1/s", mean != 0.0 ? means_.error(n) : -1.0,
+      const double mean = means_.known_mean(n);
+      const double error = mean != 0.0 ? means_.error(n) : sdk::k_no_estimate;
+      sink.figure(k_names[n], mean, "1/s", sdk::error_beside(mean, error),
                   sdk::detail(sdk::Quantity::vorticity));
     }
     // Where nothing turns there is no place that turns fastest.

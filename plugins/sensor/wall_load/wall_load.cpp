@@ -53,13 +53,14 @@ class WallLoad final : public sdk::Sensor {
     return s.build();
   }
   static sdk::ModelInfo describe() {
-    return {.name = "wall_load",
-            .version = "1.0",
-            .summary = "Force, torque, power, mass in contact and impact energies of walls.",
-            .equation =
-                R"(F = -\sum_c w_c f_c,\quad T_p = -\sum_c w_c [(x_c - p) \times f_c + M_c],\quad )"
-                R"(P = \sum_c w_c f_c \cdot v_w,\quad E = \tfrac{1}{2} m v_n^2)",
-            .source = "own definition"};
+    return {
+        .name = "wall_load",
+        .version = "1.0",
+        .summary = "Force, torque, power, mass in contact and impact energies of walls.",
+        .equation =
+            R"(F = -\sum_c w_c f_c,\quad T_p = -\sum_c w_c [(x_c - p) \times f_c + M_c],\quad )"
+            R"(P = \sum_c w_c (f_c \cdot v_w + M_c \cdot \omega_w),\quad E = \tfrac{1}{2} m v_n^2)",
+        .source = "own definition"};
   }
 
   explicit WallLoad(const Parameters& p)
@@ -104,6 +105,7 @@ class WallLoad final : public sdk::Sensor {
       const double energy = i.normal_energy + i.tangential_energy;
       if (!is_chosen[static_cast<std::size_t>(i.wall)] || energy < p_.least_energy) continue;
       impacts_ += i.weight;
+      impact_squares_ += i.weight * i.weight;
       impact_energy_[0] += i.weight * i.normal_energy;
       impact_energy_[1] += i.weight * i.tangential_energy;
       largest_ = std::max(largest_, energy);
@@ -128,9 +130,10 @@ class WallLoad final : public sdk::Sensor {
       sink.figure(k_names[c], means_.known_mean(c), k_units[c], means_.error(c),
                   sdk::detail(k_quantities[c]));
     }
-    // Impacts come one by one: their number scatters like a Poisson count.
-    sink.figure("impacts", impacts_, "1", impacts_ > 0.0 ? std::sqrt(impacts_) : -1.0,
-                sdk::detail(sdk::Quantity::number));
+    // Impacts come one by one: their number scatters like a Poisson count, in which a grain that
+    // stands for w of them comes w at a time.
+    const double scatter = impacts_ > 0.0 ? std::sqrt(impact_squares_) : sdk::k_no_estimate;
+    sink.figure("impacts", impacts_, "1", scatter, sdk::detail(sdk::Quantity::number));
     sink.figure("impact_energy_normal", impact_energy_[0], "J", sdk::Quantity::energy);
     sink.figure("impact_energy_tangential", impact_energy_[1], "J", sdk::Quantity::energy);
     sink.figure("impact_energy_largest", largest_, "J", sdk::Quantity::energy);
@@ -138,8 +141,9 @@ class WallLoad final : public sdk::Sensor {
     sink.figure("impact_energy_normal_median", median, "J",
                 sdk::error_beside(median, sdk::k_no_estimate), sdk::detail(sdk::Quantity::energy));
     const double time = means_.duration();
-    sink.figure("impact_rate", time > 0.0 ? impacts_ / time : 0.0, "1/s",
-                time > 0.0 && impacts_ > 0.0 ? std::sqrt(impacts_) / time : -1.0,
+    const double rate = time > 0.0 ? impacts_ / time : sdk::k_no_value;
+    sink.figure("impact_rate", rate, "1/s",
+                sdk::error_beside(rate, sdk::scaled_error(scatter, 1.0 / time)),
                 sdk::detail(sdk::Quantity::rate));
   }
 
@@ -154,7 +158,8 @@ class WallLoad final : public sdk::Sensor {
 
   void save(sdk::ArchiveWriter& a) const override {
     a.numbers("values", values_);
-    const double sums[] = {impacts_, impact_energy_[0], impact_energy_[1], largest_};
+    const double sums[] = {impacts_, impact_energy_[0], impact_energy_[1], largest_,
+                           impact_squares_};
     a.numbers("sums", sums);
     a.numbers("normal", normal_);
     a.numbers("tangential", tangential_);
@@ -169,6 +174,8 @@ class WallLoad final : public sdk::Sensor {
     impacts_ = sums.at(0);
     impact_energy_ = {sums.at(1), sums.at(2)};
     largest_ = sums.at(3);
+    // Older checkpoints hold none: as of grains that stand for one each.
+    impact_squares_ = sums.size() > 4 ? sums[4] : impacts_;
     normal_ = a.numbers("normal");
     tangential_ = a.numbers("tangential");
     means_.load(a, "means");
@@ -195,6 +202,7 @@ class WallLoad final : public sdk::Sensor {
   formula::Bins bins_;
   std::array<double, k_columns> values_{};   ///< at the last sample
   double impacts_ = 0.0;                     ///< [-] real grains
+  double impact_squares_ = 0.0;              ///< [-] of the weights of impacts
   std::array<double, 2> impact_energy_{};    ///< [J] normal, tangential
   double largest_ = 0.0;                     ///< [J]
   std::vector<double> normal_, tangential_;  ///< spectra

@@ -97,13 +97,14 @@ class Wear final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t c = 0; c < k_columns; ++c) {
-      sink.figure(k_names[c], means_.mean(c), k_units[c], means_.error(c),
+      const double mean = means_.known_mean(c);
+      sink.figure(k_names[c], mean, k_units[c], sdk::error_beside(mean, means_.error(c)),
                   sdk::detail(k_quantities[c]));
     }
     sink.figure("volume", means_.mean(0) * duration_, "m3", -1.0,
                 sdk::detail(sdk::Quantity::volume));
     const double area = p_.cell * p_.cell;
-    const double per_time = duration_ > 0.0 ? 1.0 / (duration_ * area) : 0.0;
+    const double per_time = duration_ > 0.0 ? 1.0 / (duration_ * area) : sdk::k_no_value;
     largest("depth_rate", "m/s", sdk::Quantity::velocity, volume_, per_time, sink);
     largest("pressure", "Pa", sdk::Quantity::pressure, force_, per_time, sink);
   }
@@ -182,7 +183,8 @@ class Wear final : public sdk::Sensor {
                const std::vector<double>& sums, double factor, sdk::FigureSink& sink) const {
     const auto most = std::max_element(sums.begin(), sums.end());
     auto index = static_cast<std::size_t>(most - sums.begin());
-    sink.figure(name + "_largest/value", *most * factor, unit, -1.0,
+    const double value = *most * factor;
+    sink.figure(name + "_largest/value", value, unit, sdk::error_beside(value, sdk::k_no_estimate),
                 sdk::overview(quantity, quantity == sdk::Quantity::pressure ? 2 : 1));
     constexpr sdk::Quantity k_places[] = {sdk::Quantity::x, sdk::Quantity::y, sdk::Quantity::z};
     for (int d = 0; d < 3; ++d) {

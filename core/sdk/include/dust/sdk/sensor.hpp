@@ -124,6 +124,11 @@ inline double error_beside(double value, double error) {
   return std::isnan(value) ? k_nothing_passed : error;
 }
 
+/// An error times a factor >= 0, as of another unit; a reason why there is none stays that.
+inline double scaled_error(double error, double factor) {
+  return error < 0.0 ? error : error * factor;
+}
+
 /// Fewer independent grains tell no error.
 inline constexpr double k_min_grains = 20.0;
 
