@@ -33,6 +33,10 @@ struct ReadResult {
   std::vector<std::string> warnings;  ///< "file:line:column: warning: ..."
 };
 
+/// The name of a scenario or study whose file gives none: a folder name that works everywhere, in
+/// which other characters of the file's stem are '_'.
+std::string name_from_file(const std::filesystem::path& file);
+
 struct Node;
 class Diagnostics;
 

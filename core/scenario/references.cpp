@@ -55,6 +55,13 @@ bool is_of_class(const std::string& figure) {
   return figure.starts_with("class_") || figure.find("/class_") != std::string::npos;
 }
 
+/// The same of all sizes: "drop_140_mm/class_300_um/median" is "drop_140_mm/median" of one class.
+std::string without_class(const std::string& figure) {
+  const std::size_t begin = figure.starts_with("class_") ? 0 : figure.find("/class_") + 1;
+  const std::size_t end = figure.find('/', begin);
+  return figure.substr(0, begin) + (end == std::string::npos ? "" : figure.substr(end + 1));
+}
+
 /// Reads one reference of the list.
 class ReferenceReader {
  public:
@@ -120,15 +127,17 @@ class ReferenceReader {
       return false;
     }
     is_enabled_ = sensor->is_enabled;
+    const bool is_class = is_of_class(spec.figure);
+    const std::string known = is_class ? without_class(spec.figure) : spec.figure;
     std::vector<std::string> names;
     for (const auto& [name, unit] : sensor->figures) {
-      if (name == spec.figure) {
+      if (name == spec.figure || name == known) {
         spec.unit = unit;
         return true;
       }
       names.push_back(name);
     }
-    if (is_of_class(spec.figure)) return true;
+    if (is_class) return true;
     // A sensor that could not be made has told its own problem.
     if (!names.empty()) {
       error("quantity", "the sensor '" + spec.sensor + "' has no figure " + in_quotes(spec.figure) +
@@ -150,7 +159,7 @@ class ReferenceReader {
     std::string problem;
     const auto given = split_number(entry.value.text, problem);
     if (!given) return fail(problem);
-    // The unit of a size class's figure is taken as it is written.
+    // The unit of what there is of single size classes alone is taken as it is written.
     if (unit.empty()) unit = given->unit.empty() ? "1" : given->unit;
     const bool is_bare = unit == "1" || unit == "-";
     if (given->unit == unit || (is_bare && given->unit.empty())) return given->number;

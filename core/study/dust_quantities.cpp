@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 
 namespace dust::study {
 namespace {
@@ -33,6 +34,18 @@ constexpr DustName k_of_outflow[] = {
 
 /// Of each way of the dust in the steady stream (run::DustRates).
 constexpr DustName k_of_rate[] = {{"rate", "kg/h"}, {"per_load", "g/t"}};
+
+/// Of the stream of grains that falls through the air, and of what its impacts turn to heat.
+constexpr DustName k_of_stream[] = {
+    {"entrained_air.flow", "m3/s"},
+    {"entrained_air.per_load", "m3/t"},
+    {"entrained_air.height", "m"},
+    {"looseness.void_fraction", "1"},
+    {"looseness.densest_void_fraction", "1"},
+    {"looseness.expansion", "1"},
+    {"looseness.height", "m"},
+};
+constexpr DustName k_of_impacts[] = {{"power", "W"}, {"per_load", "J/kg"}};
 
 /// Of each hood and opening, whether there is a field of dust or not.
 constexpr DustName k_of_hood[] = {
@@ -89,6 +102,7 @@ class DustQuantities {
     add("dust_field.sub_steps", "1");
     for (const std::string& way : ways_out()) add_all(k_of_outflow, "dust_outflow." + way + ".");
     add_rates();
+    add_indices();
     if (dust_.liberation) {
       for (const std::string& name : classes_) add_load("dust_on_grains.classes." + name + ".");
       add("dust_on_grains.kept_back_kg", "kg");
@@ -164,6 +178,22 @@ class DustQuantities {
     if (dust_.field->scavenging) add_way("caught", {"grains"}, false);
   }
 
+  /// As run::StreamIndices tells them.
+  void add_indices() {
+    const std::string of = "stream_indices.";
+    for (const DustName& n : k_of_stream) {
+      all_.push_back({of + n.name, n.unit, std::string_view(n.name).ends_with("flow"), {}});
+    }
+    if (!dust_.liberation) return;
+    for (const DustName& n : k_of_impacts) {
+      const std::string all = of + "impact.all." + n.name;
+      add(all, n.unit);
+      for (const std::string& cause : bodies_of_impacts()) {
+        all_.push_back({of + "impact." + cause + "." + n.name, n.unit, true, all});
+      }
+    }
+  }
+
   /// As run::DustStage::lets_dust_out.
   [[nodiscard]] bool lets_dust_out(std::size_t side) const {
     if (setup_.domain.sides[side].grains == scenario::GrainSide::open) return true;
@@ -193,10 +223,14 @@ class DustQuantities {
     return names;
   }
 
-  /// As run::LiberationStage tells them.
-  [[nodiscard]] std::vector<std::string> causes() const {
+  [[nodiscard]] std::vector<std::string> bodies_of_impacts() const {
     std::vector<std::string> all{"grains"};
     all.insert(all.end(), surfaces_.begin(), surfaces_.end());
+    return all;
+  }
+  /// As run::LiberationStage tells them.
+  [[nodiscard]] std::vector<std::string> causes() const {
+    std::vector<std::string> all = bodies_of_impacts();
     if (needs_wind_) all.emplace_back("wind");
     return all;
   }

@@ -245,9 +245,10 @@ std::map<std::string, Figure> read_figures(const std::filesystem::path& summary)
     }
     json.erase("sensors");
   }
-  if (json.contains("dust_rates")) {
-    take("dust_rates.", json["dust_rates"]);
-    json.erase("dust_rates");
+  for (const std::string family : {"dust_rates", "stream_indices"}) {
+    if (!json.contains(family)) continue;
+    take(family + ".", json[family]);
+    json.erase(family);
   }
   collect(json, {}, figures);
   return figures;

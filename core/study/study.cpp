@@ -159,6 +159,7 @@ class Study {
     }
     io::make_result_folder(folder);
     const FolderLock lock(folder);
+    check_still_unused(options_, folder);
     if (options_.force) clear_study_folder(folder);
     copy_study(options_.file, folder);
     const SignalGuard signals;
@@ -169,18 +170,28 @@ class Study {
     int signal = 0;
     std::optional<CalibrationAnswer> answer;
     if (is_calibration) {
-      answer = calibrate_with(runner, signal);
+      try {
+        answer = calibrate_with(runner, signal);
+      } catch (const base::RunError&) {
+        // What has been run is worth reading though too little of it is there to learn from.
+        write_results(folder, runner, nullptr);
+        throw;
+      }
       write_calibration(folder / "calibration.json", *answer);
     } else {
       signal = runner.run();
     }
-    write_h5(folder / "study.h5", runner.results(), answer ? &*answer : nullptr);
-    write_study_report(folder / "report.html", spec_, runner.results(),
-                       answer ? &*answer : nullptr);
+    write_results(folder, runner, answer ? &*answer : nullptr);
     return conclude(folder, runner, answer, signal);
   }
 
  private:
+  void write_results(const fs::path& folder, const Runner& runner,
+                     const CalibrationAnswer* answer) const {
+    write_h5(folder / "study.h5", runner.results(), answer);
+    write_study_report(folder / "report.html", spec_, runner.results(), answer);
+  }
+
   /// Points at the lower ends, for what they cost.
   std::vector<Point> ends() {
     std::vector<double> low;

@@ -75,6 +75,15 @@ fs::path choose_study_folder(const StudyOptions& options, const std::string& nam
   return folder;
 }
 
+void check_still_unused(const StudyOptions& options, const fs::path& folder) {
+  if (options.resume || options.force) return;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() == "study.lock") continue;
+    throw base::UserError("error: another study has taken the folder " + folder.string() +
+                          " meanwhile; start this one again, or give another -o");
+  }
+}
+
 void clear_study_folder(const fs::path& folder) {
   for (const char* name : k_study_files) fs::remove_all(folder / name);
 }

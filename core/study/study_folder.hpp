@@ -13,6 +13,10 @@ namespace dust::study {
 /// that is no study, or the study's own file. Makes and changes nothing.
 std::filesystem::path choose_study_folder(const StudyOptions& options, const std::string& name);
 
+/// After the lock: throws base::UserError where another study that began at the same time has
+/// written to a folder that was unused when it was chosen.
+void check_still_unused(const StudyOptions& options, const std::filesystem::path& folder);
+
 /// Removes what a study writes, and nothing else.
 void clear_study_folder(const std::filesystem::path& folder);
 

@@ -201,6 +201,11 @@ TEST_CASE("expectations and calibrations shall be checked against the study") {
                 "mean 'friction'?");
   check_message(targets + "{f: {path: time.end, from: 40 ms, to: 20 ms}}\n",
                 "s.yaml:4:53: error: calibrate.parameters.f.to: must be above from");
+  check_message(targets +
+                    "{f: {path: time.end, from: 20 ms, to: 40 ms}}\n  surrogate: quadratic\n"
+                    "  runs: 4\n",
+                "s.yaml:6:9: error: calibrate.runs: quadratic learns from 5 runs or more where 1 "
+                "parameter is sought");
 }
 
 TEST_CASE("a study file shall be told of what is wrong with itself") {

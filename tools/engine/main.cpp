@@ -83,8 +83,8 @@ int engine_main(int argc, char** argv) {
       "  engine check scenarios/transfer_point.yaml --set bodies.belt.speed='0.4 m/s'\n"
       "  engine describe drag/gidaspow\n"
       "'engine COMMAND --help' tells more.\n"
-      "Exit status: 0 finished, 1 failed while running, 2 wrong input, 130 and 143 "
-      "interrupted.");
+      "Exit status: 0 finished, 1 failed while running, 2 wrong input, 128 + the "
+      "signal interrupted (130, 143).");
   int status = 0;
   std::vector<std::string> words{"engine"};
   words.insert(words.end(), argv + 1, argv + argc);

@@ -39,7 +39,6 @@ Json series_metadata(const Simulation& s) {
       s, [&](const std::string& name, double, sdk::RowValue kind, const sdk::FigureRole& role) {
         columns.push_back({{"titles", name},
                            {"datatype", "double"},
-                           {"required", true},
                            {"dust:value", name_of(kind)},
                            {"dust:figure", role_json(role)}});
       });

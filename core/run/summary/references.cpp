@@ -2,8 +2,10 @@
 #include "run/summary/references.hpp"
 
 #include "base/text.hpp"
+#include "scenario/text/units.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace dust::run {
 namespace {
@@ -16,6 +18,34 @@ std::string shown(const Json& value, const Json& uncertainty) {
   const std::string text = base::digits_text(value.get<double>(), 4);
   if (!uncertainty.is_number()) return text;
   return text + " +- " + base::digits_text(uncertainty.get<double>(), 2);
+}
+
+scenario::Unit unit_named(const std::string& name) {
+  return scenario::parse_unit(name).value_or(scenario::Unit{});
+}
+
+/// What a number in the unit of the reference is multiplied by to be in that of the figure: 1 as a
+/// rule. Nothing where the units are not of one dimension.
+std::optional<double> factor_between(const std::string& written, const std::string& reported) {
+  if (written == reported) return 1.0;
+  const scenario::Unit from = unit_named(written);
+  const scenario::Unit to = unit_named(reported);
+  if (!(from.dimension == to.dimension)) return std::nullopt;
+  return (from.numerator * to.denominator) / (from.denominator * to.numerator);
+}
+
+/// Our figure beside the reference, in its unit.
+void add_ours(const scenario::ReferenceSpec& r, const Json& figure, Json& one) {
+  const auto factor = factor_between(r.unit, figure["unit"].get<std::string>());
+  if (!factor) return;
+  const double value = *factor * r.value;
+  one["unit"] = figure["unit"];
+  one["value"] = value;
+  if (r.uncertainty >= 0.0) one["uncertainty"] = *factor * r.uncertainty;
+  one["ours"] = figure["value"];
+  one["our_uncertainty"] = figure["uncertainty"];
+  if (!figure["value"].is_number() || value == 0.0) return;
+  one["error_percent"] = 100.0 * std::abs((value - figure["value"].get<double>()) / value);
 }
 
 }  // namespace
@@ -32,14 +62,7 @@ Json references_json(std::span<const scenario::ReferenceSpec> references, const 
                 {"error_percent", nullptr},
                 {"source", r.source}};
     if (sensors.contains(r.sensor) && sensors[r.sensor].contains(r.figure)) {
-      const Json& figure = sensors[r.sensor][r.figure];
-      one["unit"] = figure["unit"];
-      one["ours"] = figure["value"];
-      one["our_uncertainty"] = figure["uncertainty"];
-      if (figure["value"].is_number() && r.value != 0.0) {
-        const double error = std::abs((r.value - figure["value"].get<double>()) / r.value);
-        one["error_percent"] = 100.0 * error;
-      }
+      add_ours(r, sensors[r.sensor][r.figure], one);
     }
     list.push_back(one);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/checks.hpp"
+#include "scenario/reader.hpp"
 #include "scenario/reading/block_readers.hpp"
 #include "scenario/reading/reading.hpp"
 #include "scenario/text/units.hpp"
@@ -9,15 +10,6 @@
 
 namespace dust::scenario {
 namespace {
-
-/// A folder name that works everywhere: other characters of a file's stem become '_'.
-std::string name_from_file(const std::filesystem::path& file) {
-  std::string name = file.stem().string();
-  for (char& c : name) {
-    if (!is_name(std::string("a") + c)) c = '_';
-  }
-  return is_name(name) ? name : "scenario_" + name;
-}
 
 /// An air condition with a volume flow through a box is an opening; what it draws out may be dust.
 void note_opening(Reading& reading, int side, const std::optional<ModelChoice>& air) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/reading/reading.hpp"
 
+#include "scenario/reader.hpp"
+
 #include <algorithm>
 
 namespace dust::scenario {
@@ -11,6 +13,14 @@ bool is_name(const std::string& text) {
          std::all_of(text.begin(), text.end(), [&](char c) {
            return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
          });
+}
+
+std::string name_from_file(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  for (char& c : name) {
+    if (!is_name(std::string("a") + c)) c = '_';
+  }
+  return is_name(name) ? name : "scenario_" + name;
 }
 
 Reading::Reading(const Node& root_node, const std::filesystem::path& scenario_file,

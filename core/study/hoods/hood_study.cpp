@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -168,22 +169,34 @@ Span span_of(const FinishedRun& run, double duration) {
 
 std::string time_text(double seconds) { return base::digits_text(seconds, 10) + " s"; }
 
+/// A path as YAML reads it back.
+std::string yaml_text(const fs::path& path) {
+  const std::string text = path.generic_string();
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+  };
+  if (std::all_of(text.begin(), text.end(), is_plain) && !text.starts_with('-')) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "''" : std::string(1, c);
+  return quoted + "'";
+}
+
 void write_head(std::ostringstream& out, const FinishedRun& run, const HoodStudy& study,
                 const HoodStudyOptions& options) {
   const fs::path beside = fs::absolute(options.file).parent_path();
   const fs::path folder = fs::proximate(fs::absolute(run.folder), beside);
-  const std::string name = options.file.stem().string();
+  const std::string name = scenario::name_from_file(options.file);
   const Span span = span_of(run, options.duration);
   out << "# Hoods tried from the last state of " << run.text.summary.value("scenario", "a run")
       << ", at its places of low pressure, and the plain run beside them.\n# engine study "
-      << options.file.string() << " -o results/" << name << ", then: engine suggest-hoods results/"
-      << name << "\nname: " << name << "\ntitle: Hoods at " << study.sites.size()
+      << base::shell_word(options.file.string()) << " -o results/" << name
+      << ", then: engine suggest-hoods results/" << name << "\nname: " << name
+      << "\ntitle: Hoods at " << study.sites.size()
       << (study.sites.size() == 1 ? " place" : " places") << " of low pressure, with "
       << study.flows.size() << (study.flows.size() == 1 ? " flow" : " flows")
-      << " each\nbase: " << (folder / "scenario.yaml").generic_string() << "\n"
+      << " each\nbase: " << yaml_text(folder / "scenario.yaml") << "\n"
       << (study.replicates > 1 ? "replicates: " + std::to_string(study.replicates) + "\n" : "")
-      << "set:\n  start_from: " << folder.generic_string()
-      << "\n  time.end: " << time_text(span.end)
+      << "set:\n  start_from: " << yaml_text(folder) << "\n  time.end: " << time_text(span.end)
       << "\n  time.output_every: " << time_text(span.output_every) << '\n';
   const double steady = span.begin + k_settling * (span.end - span.begin);
   for (const std::string& sensor : openings_of(run.text)) {

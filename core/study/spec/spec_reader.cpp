@@ -7,6 +7,7 @@
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
 #include "scenario/text/values.hpp"
+#include "study/calibration/surrogate.hpp"
 
 #include <algorithm>
 
@@ -377,7 +378,21 @@ class SpecReader {
     if (calibration.parameters.size() > 4) {
       error(parameters->where, "calibrate.parameters: at most 4 can be found at a time");
     }
+    check_runs(entry, calibration);
     spec_.calibration = std::move(calibration);
+  }
+
+  void check_runs(const Entry& entry, const CalibrationSpec& calibration) {
+    if (calibration.parameters.empty() || diagnostics_.has_errors()) return;
+    const std::size_t fewest =
+        make_surrogate(calibration.surrogate)->fewest(calibration.parameters.size());
+    if (static_cast<std::size_t>(calibration.runs) >= fewest) return;
+    const Entry* runs = entry.value.find("runs");
+    error(runs != nullptr ? runs->value.where : entry.where,
+          "calibrate.runs: " + calibration.surrogate + " learns from " + std::to_string(fewest) +
+              " runs or more where " + std::to_string(calibration.parameters.size()) +
+              (calibration.parameters.size() == 1 ? " parameter is" : " parameters are") +
+              " sought");
   }
 
   /// Value and unit of a number; the problem is told.

@@ -80,9 +80,20 @@ TEST_CASE("a reference curve of a sensor that is switched off shall be left out"
   CHECK(read(file, {{"sensors.stream.enabled", "false"}}).reference_curves.empty());
 }
 
-TEST_CASE("a figure of a size class shall be taken on trust") {
+TEST_CASE("a figure of a size class shall have the unit of that of all sizes") {
+  const auto list = read_list(
+      "  - {quantity: sensors.stream.class_10_um/rate, value: 5 g/s, source: t}\n"
+      "  - {quantity: sensors.stream.drop_5_mm/class_10_um/median, value: 12 mm, source: t}\n");
+  REQUIRE(list.size() == 2);
+  CHECK(list[0].unit == "kg/s");
+  CHECK(list[0].value == approx(5e-3).epsilon(1e-14));
+  CHECK(list[1].unit == "m");
+  CHECK(list[1].value == approx(12e-3).epsilon(1e-14));
+}
+
+TEST_CASE("a figure that there is of size classes alone shall be taken on trust") {
   const auto list =
-      read_list("  - {quantity: sensors.stream.class_10_um/rate, value: 0.05 g/t, source: t}\n");
+      read_list("  - {quantity: sensors.stream.class_10_um/spread, value: 0.05 g/t, source: t}\n");
   REQUIRE(list.size() == 1);
   CHECK(list[0].unit == "g/t");
   CHECK(list[0].value == 0.05);
@@ -95,6 +106,22 @@ TEST_CASE("a reference to a sensor that is switched off shall be left out") {
       k_small + "references:\n  - {quantity: sensors.stream.count, value: 1, source: t}\n");
   CHECK(read(file).references.size() == 1);
   CHECK(read(file, {{"sensors.stream.enabled", "false"}}).references.empty());
+}
+
+TEST_CASE("a reference shall be compared in the unit of the figure") {
+  const std::vector<scenario::ReferenceSpec> references{
+      {"slope", "class_10_um/width", 60.1, "mm", 0.2, "t"},
+      {"slope", "class_10_um/width", 3.0, "kg", -1.0, "t"}};
+  const Json sensors = {
+      {"slope",
+       {{"class_10_um/width", {{"value", 0.0601}, {"unit", "m"}, {"uncertainty", nullptr}}}}}};
+  const Json list = dust::run::references_json(references, sensors);
+  CHECK(list[0]["unit"] == "m");
+  CHECK(list[0]["value"].get<double>() == approx(0.0601).epsilon(1e-12));
+  CHECK(list[0]["uncertainty"].get<double>() == approx(2e-4).epsilon(1e-12));
+  CHECK(list[0]["error_percent"].get<double>() < 1e-9);
+  CHECK(list[1]["ours"].is_null());  // a mass is no width
+  CHECK(list[1]["unit"] == "kg");
 }
 
 TEST_CASE("ours shall stand beside the reference with the difference in per cent") {

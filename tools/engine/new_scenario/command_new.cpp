@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "commands.hpp"
 #include "new_scenario/new_scenario.hpp"
+#include "scenario/reader.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
 
@@ -39,8 +41,9 @@ void write_new(const Starter& starter, const std::map<std::string, std::string>&
     const bool is_given = at != given.end() && !at->second.empty();
     sizes.push_back(size_in_si(size, is_given ? at->second : size.by_default));
   }
-  write_file(file, starter.write(file.stem().string(), sizes));
-  std::cout << "wrote " << file.string() << "; next: engine check " << file.string() << '\n';
+  write_file(file, starter.write(scenario::name_from_file(file), sizes));
+  std::cout << "wrote " << file.string() << "; next: engine check "
+            << base::shell_word(file.string()) << '\n';
 }
 
 }  // namespace

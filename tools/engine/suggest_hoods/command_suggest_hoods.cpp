@@ -2,6 +2,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "commands.hpp"
+#include "scenario/reader.hpp"
 #include "scenario/text/units.hpp"
 #include "study/hoods/hood_results.hpp"
 #include "study/hoods/hood_study.hpp"
@@ -94,8 +95,9 @@ void write_study(const Arguments& given) {
   print_sites(study);
   std::cout << "wrote " << options.file.string() << ": " << study.points() << " points of "
             << base::digits_text(study.duration, 4) << " s; next: engine study "
-            << options.file.string() << " -o results/" << options.file.stem().string()
-            << ", then: engine suggest-hoods results/" << options.file.stem().string() << '\n';
+            << options.file.string() << " -o results/" << scenario::name_from_file(options.file)
+            << ", then: engine suggest-hoods results/" << scenario::name_from_file(options.file)
+            << '\n';
 }
 
 /// Options of the study that is written.

@@ -73,10 +73,14 @@ class Run:
             sensors = self.summary["sensors"]
             figures = sensors[find_name(sensor, sensors, "sensor")]
             return _number(figures[find_name(figure.replace(".", "/"), figures, "figure")]["value"])
-        found = self.summary
-        for part in path.split("."):
-            found = found[find_name(part, found, "figure")]
-        return found
+        found, parts = self.summary, path.split(".")
+        while parts:
+            # Figures are named by paths: "left/right/rate" of dust_rates.
+            rest = "/".join(parts)
+            name = rest if rest in found else parts[0]
+            found = found[find_name(name, found, "figure")]
+            parts = [] if name == rest else parts[1:]
+        return _number(found["value"]) if isinstance(found, dict) and "value" in found else found
 
     @property
     def size_classes(self):
