@@ -14,7 +14,7 @@ namespace dust::run {
 bool remove_bodies(const scenario::Setup& setup, double time, const particles::GrainRows& rows,
                    bodies::BodySet& bodies);
 
-/// [J] Translation and rotation, mean over the computed particles; infinite without any.
+/// [J] Translation and rotation, mean over the real particles; infinite without any.
 [[nodiscard]] double kinetic_energy_per_grain(const particles::GrainRows& rows);
 
 }  // namespace dust::run

@@ -88,3 +88,22 @@ TEST_CASE("a hood shall draw out the same on any threads and after a resume") {
   const json whole = check_same_bits(k_scenario, {}, {"4 ms", "10 ms"}, {"hoods", "dust_field"});
   CHECK(whole["hoods"]["hood"]["particles"] > 20);
 }
+
+TEST_CASE("a run that goes on without a hood shall say what that had taken and close its balance") {
+  const TemporaryFolder folder;
+  const json first = run(folder / "first", {"--set", "bodies.hood.suction.flow=8 l/min"});
+  const json& before = first["dust_field"]["classes"]["20_um"];
+  const json summary = run(folder / "branch", {"--set", "start_from=" + (folder / "first").string(),
+                                               "--set", "time.end=60 ms", "--set", "dust.hoods=[]",
+                                               "--set", "bodies.hood.enabled=false"});
+  const json& field = summary["dust_field"]["classes"]["20_um"];
+  const double drawn = before["hoods_kg"]["hood"].get<double>();
+  CHECK(drawn > 0.01 * before["released_kg"].get<double>());
+  CHECK(field["released_kg"].get<double>() ==
+        approx(before["released_kg"].get<double>() - drawn).epsilon(1e-6));
+  CHECK(std::abs(field["balance_error"].get<double>()) < 1e-9);
+  const std::string warnings = summary["warnings"].dump();
+  CHECK_MESSAGE(warnings.find("kg of dust that bodies or openings had taken which are gone") !=
+                    std::string::npos,
+                warnings);
+}

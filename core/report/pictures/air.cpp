@@ -66,7 +66,8 @@ bool read_plane(const H5Source& source, const std::string& frame, const Grid& gr
   const auto velocity = field(frame + "/velocity");
   if (velocity.size() != 3 * cells) return false;
   const auto pressure = field(frame + "/pressure");
-  const auto open = field("/fluid/open_fraction");
+  auto open = field(frame + "/open_fraction");  // where bodies move or are taken away
+  if (open.empty()) open = field("/fluid/open_fraction");
   resize(mean, grid.nx, grid.nz);
   const std::size_t rows = grid.is_middle_plane ? 1 : grid.ny;
   for (std::size_t y = 0; y < rows; ++y) add_row(mean, grid, velocity, pressure, open, y, rows);
@@ -180,21 +181,27 @@ json encoded(const Plane& map, const Plane& arrows, const Range& range, double t
   return {{"t", time}, {"data", packed(bytes)}};
 }
 
-/// Mean over the frames of the second half of the run.
+/// Mean over the frames of the second half of the run, of each cell while it was open.
 Plane mean_of(const std::vector<Plane>& maps, const std::vector<double>& times, double from) {
-  Plane mean = maps.back();
-  double frames = 1.0;
-  for (std::size_t k = 0; k + 1 < maps.size(); ++k) {
-    if (times[k] < from) continue;
-    frames += 1.0;
+  Plane mean;
+  resize(mean, maps.back().nx, maps.back().nz);
+  float frames = 0.0F;
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    if (times[k] < from && k + 1 < maps.size()) continue;
+    frames += 1.0F;
     for (std::size_t i = 0; i < mean.weight.size(); ++i) {
-      mean.u[i] += maps[k].u[i];
-      mean.w[i] += maps[k].w[i];
-      mean.pressure[i] += maps[k].pressure[i];
+      const float weight = maps[k].weight[i];
+      mean.weight[i] += weight;
+      mean.u[i] += weight * maps[k].u[i];
+      mean.w[i] += weight * maps[k].w[i];
+      mean.pressure[i] += weight * maps[k].pressure[i];
     }
   }
-  for (auto* part : {&mean.u, &mean.w, &mean.pressure}) {
-    for (float& value : *part) value /= static_cast<float>(frames);
+  for (std::size_t i = 0; i < mean.weight.size(); ++i) {
+    for (auto* part : {&mean.u, &mean.w, &mean.pressure}) {
+      if (mean.weight[i] > 0.0F) (*part)[i] /= mean.weight[i];
+    }
+    mean.weight[i] /= frames;
   }
   return mean;
 }

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "run/branch/dust_places.hpp"
 #include "run/dust/hoods.hpp"
 #include "run/insertion/entry.hpp"
 
@@ -449,9 +450,7 @@ void Branch::transfer_dust(const Simulation::Owners& to) {
       "dust.field.clouds",     "dust.field.sources",
       "dust.field.cohesion",   "dust.field.emission_coefficient",
       "dust.field.deposition", "dust.field.schmidt_number"};
-  const auto theirs = origin_.scenario();
-  const auto openings_then = openings_of(theirs.setup, theirs.dust);
-  const auto openings_now = openings_of(now_.setup, now_.dust);
+  const scenario::ReadResult& theirs = origin_.scenario();
   // What lies where is stored in two ways.
   const bool do_surfaces_run = has_running_surfaces(now_.setup);
   if (!is_same_grid() || !state.has("dust", "volume") || !same("dust.field", k_free_of_field) ||
@@ -462,43 +461,19 @@ void Branch::transfer_dust(const Simulation::Owners& to) {
     to.dust->start();
     return;
   }
-  constexpr std::size_t k_sides = 6;
-  /// The number of a surface here; -1: its body is gone.
-  const auto surface_here = [&](std::size_t n) {
-    if (n < k_sides) return static_cast<std::int64_t>(n);
-    const auto* body = find_named(now_.setup.bodies, theirs.setup.bodies[n - k_sides].name);
-    return body == nullptr ? std::int64_t{-1}
-                           : static_cast<std::int64_t>(k_sides) + (body - now_.setup.bodies.data());
-  };
-  const auto change = [&](std::string_view name, std::vector<double>& values) {
-    if (name.ends_with("_surfaces")) {
-      std::vector<double> mine(k_sides + now_.setup.bodies.size(), 0.0);
-      for (std::size_t n = 0; n < values.size(); ++n) {
-        const std::int64_t here = surface_here(n);
-        if (here >= 0) mine[static_cast<std::size_t>(here)] = values[n];
-      }
-      values = std::move(mine);
-    } else if (name.ends_with("_outlets")) {
-      std::vector<double> mine(openings_now.size(), 0.0);
-      for (std::size_t n = 0; n < values.size() && n < openings_then.size(); ++n) {
-        if (const auto* opening = find_named(openings_now, openings_then[n].name)) {
-          mine[static_cast<std::size_t>(opening - openings_now.data())] = values[n];
-        }
-      }
-      values = std::move(mine);
-    }
-  };
-  const auto change_places = [&](std::string_view name, std::vector<std::int64_t>& values) {
-    if (name != "layer_places") return;
-    for (std::size_t n = 1; n < values.size(); n += 2) {
-      values[n] = surface_here(static_cast<std::size_t>(values[n]));
-    }
-  };
+  DustPlaces places(theirs, now_);
+  state.read({{"dust", [&](sdk::ArchiveReader& a) { places.find_dropped(a); }}});
+  if (places.dropped() > 0.0) {
+    warn(base::digits_text(places.dropped(), 3) +
+         " kg of dust that bodies or openings had taken which are gone are in no balance from "
+         "here on: `released` is without them");
+  }
+  const auto change = [&](std::string_view name, auto& values) { places.change(name, values); };
   LoadParts parts;
   to.dust->add_parts(parts);
   for (const auto& part : parts) {
     state.read({{part.first, [&](sdk::ArchiveReader& a) {
-                   Changed changed(a, change, change_places);
+                   Changed changed(a, change, change);
                    part.second(changed);
                  }}});
   }
