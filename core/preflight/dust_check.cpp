@@ -172,10 +172,10 @@ double narrowest_turn(double diameter, double density, double viscosity, double 
   return relaxation * speed / airborne::k_largest_stokes_number;
 }
 
-void check_drift(const Setup& setup, const DustSetup& dust, const ParticleModels& models,
-                 scenario::Diagnostics& diagnostics) {
+void check_drift(const Setup& setup, const DustSetup& dust, double air_speed,
+                 const ParticleModels& models, scenario::Diagnostics& diagnostics) {
   if (!setup.fluid || !dust.field || !(setup.fluid->viscosity > 0.0)) return;
-  double speed = 0.0;
+  double speed = air_speed;
   for (const auto& body : models.bodies) speed = std::max(speed, body.largest_speed());
   for (const auto& emitter : models.emitters) speed = std::max(speed, emitter->largest_speed());
   const Vec3 h =

@@ -33,8 +33,9 @@ void check_openings(const scenario::Setup& setup, const scenario::DustSetup& dus
 double narrowest_turn(double diameter, double density, double viscosity, double speed);
 
 /// Warns of classes of a dust field that do not follow the gas round turns that the grid resolves,
-/// four cells wide, at the speed of bodies and emitters: the drift by inertia is limited there.
-void check_drift(const scenario::Setup& setup, const scenario::DustSetup& dust,
+/// four cells wide, at the speed of bodies, emitters and what blows through sides (`air_speed`):
+/// the drift by inertia is limited there.
+void check_drift(const scenario::Setup& setup, const scenario::DustSetup& dust, double air_speed,
                  const ParticleModels& models, scenario::Diagnostics& diagnostics);
 
 /// Warns of feeds that begin or end while the rates of dust off their loads are taken, from

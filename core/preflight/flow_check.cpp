@@ -35,6 +35,8 @@ using sdk::SideRule;
 constexpr double k_balance = 1e-6;
 /// Times of the run at which flows are looked at, the end included.
 constexpr int k_times = 16;
+/// [s] Flows that begin later are no flows of any run.
+constexpr double k_latest = 1e6;
 /// How much faster the fluid is at the edges of an opening than in its mean.
 constexpr double k_at_edges = 2.5;
 /// [m/s] Mach 0.3 in air, where its density changes by 5 %.
@@ -138,6 +140,10 @@ struct Faces {
   [[nodiscard]] bool is_passed() const {
     const auto& normal = velocity[sdk::axis_of(batch.normal)];
     return std::any_of(normal.begin(), normal.end(), [](double v) { return v != 0.0; });
+  }
+  [[nodiscard]] bool is_passed_everywhere() const {
+    const auto& normal = velocity[sdk::axis_of(batch.normal)];
+    return std::all_of(normal.begin(), normal.end(), [](double v) { return v != 0.0; });
   }
   /// [m3/s] into the domain
   [[nodiscard]] double inflow() const {
@@ -331,9 +337,16 @@ bool passes_air(const Setup& setup, std::size_t side, const sdk::BoundaryConditi
   if (model->rules().normal_velocity != SideRule::fixed) return true;
   if (is_too_large(setup, side)) return model->needs_flow();
   Faces faces(setup, side);
+  const auto is_passed_at = [&](double time) {
+    faces.ask(*model, time);
+    return faces.is_passed();
+  };
   for (int step = 0; step <= k_times; ++step) {
-    faces.ask(*model, setup.time.end * step / k_times);
-    if (faces.is_passed()) return true;
+    if (is_passed_at(setup.time.end * step / k_times)) return true;
+  }
+  // A run that is given a later end is to find the same answer.
+  for (double later = setup.time.end; later < k_latest; later *= 2.0) {
+    if (is_passed_at(later)) return true;
   }
   return false;
 }
@@ -373,6 +386,33 @@ void check_driven_speed(const Setup& setup, const SideModels& sides, Diagnostics
   }
 }
 
+namespace {
+
+/// Whether no part of a side is a wall to the air, as is that beside a hood.
+bool passes_air_everywhere(const Setup& setup, std::size_t side,
+                           const sdk::BoundaryCondition& model) {
+  if (model.rules().normal_velocity != SideRule::fixed) return true;
+  if (is_too_large(setup, side)) return false;
+  Faces faces(setup, side);
+  for (int step = 0; step <= k_times; ++step) {
+    faces.ask(model, setup.time.end * step / k_times);
+    if (faces.is_passed_everywhere()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+double wind_speed(const Setup& setup, const SideModels& sides) {
+  if (!setup.fluid) return 0.0;
+  double largest = 0.0;
+  for (std::size_t n = 0; n < 6; ++n) {
+    if (sides[n] == nullptr || !passes_air_everywhere(setup, n, *sides[n])) continue;
+    largest = std::max(largest, side_speed(setup, sides, n));
+  }
+  return largest;
+}
+
 void check_wall_shear(const Setup& setup, const SideModels& sides,
                       const registry::Registry& registry, Diagnostics& diagnostics) {
   if (!setup.fluid || diagnostics.has_errors()) return;
@@ -386,6 +426,8 @@ void check_wall_shear(const Setup& setup, const SideModels& sides,
     };
     if (sides[side] == nullptr) {
       refuse(" is periodic, no wall that the air could rub; name a side that is one");
+    } else if (passes_air_everywhere(setup, side, *sides[side])) {
+      refuse(" lets air pass wherever it is, so that there is no wall; name a side that is one");
     } else if (sides[side]->rules().tangential_velocity != SideRule::fixed) {
       refuse(
           " holds no air that goes along it, so that there is no shear; name a side with no_slip "

@@ -51,4 +51,8 @@ bool passes_air(const scenario::Setup& setup, std::size_t side,
 /// run; 0 without any. A side that a check has no memory for counts as none.
 double driven_speed(const scenario::Setup& setup, const SideModels& sides);
 
+/// [m/s] The same of what is driven through whole sides: it is the speed of the fluid in much of
+/// the domain, unlike that at the edges of an opening.
+double wind_speed(const scenario::Setup& setup, const SideModels& sides);
+
 }  // namespace dust::preflight

@@ -276,6 +276,9 @@ TEST_CASE("check shall refuse wall shear where there is none, or its viscosity i
                             "1000, viscosity: 1 mPa s}}";
   CHECK(checked(with("bottom", plain), 0) == "");
   CHECK(checked(with("top", water), 0) == "");
+  const std::string open = checked(with("left", plain), 2);
+  CHECK_MESSAGE(
+      open.find("sensors.rub.side: left lets air pass wherever it is") != std::string::npos, open);
   const std::string slippery = checked(with("front", plain), 2);
   CHECK_MESSAGE(
       slippery.find("sensors.rub.side: front holds no air that goes along it") != std::string::npos,

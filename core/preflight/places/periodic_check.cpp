@@ -47,11 +47,13 @@ Extent extent_of(const Scene& scene, int d) {
   return extent;
 }
 
-/// Grains are put back when they are a radius beyond a periodic side: a body has to be there as
-/// far, or so far away that none of them would touch its other end.
+/// Grains are put back once they are found a radius beyond a periodic side: a body has to be there
+/// as far, or so far away that none of them would touch its other end. They are looked at now and
+/// then only, and fly no farther than a diameter meanwhile: fast ones miss a body's end before.
 struct Reach {
-  bool spans = false;   ///< from beyond one side to beyond the other
-  bool misses = false;  ///< is nowhere near them
+  bool spans = false;       ///< from a radius beyond one side to as far beyond the other
+  bool spans_fast = false;  ///< a diameter
+  bool misses = false;      ///< is nowhere near them
 
   static Reach of(const Extent& body, double low, double high, double diameter) {
     const double rounding = 1e-9 * (high - low);
@@ -59,7 +61,9 @@ struct Reach {
     diameter -= rounding;
     const bool lies_inside = body.low >= low + diameter && body.high <= high - diameter;
     const bool lies_outside = body.low >= high + diameter || body.high <= low - diameter;
-    return {body.low <= low - radius && body.high >= high + radius, lies_inside || lies_outside};
+    return {body.low <= low - radius && body.high >= high + radius,
+            body.low <= low - diameter && body.high >= high + diameter,
+            lies_inside || lies_outside};
   }
 };
 
@@ -146,6 +150,15 @@ std::string end_problem(const Scene& scene, int d, const Extent& extent) {
          text(low + diameter) + " and " + text(high - diameter);
 }
 
+/// What to tell of a body that fast grains may miss.
+std::string short_reach(const Scene& scene, int d) {
+  const double diameter = scene.largest;
+  return "reaches less than a grain's diameter beyond the periodic sides " + sides_text(d) +
+         ": grains are put back late, so that fast ones may miss its ends; let it reach along " +
+         k_axes[d] + " from " + base::length_text(scene.domain.min[d] - diameter) + " to " +
+         base::length_text(scene.domain.max[d] + diameter);
+}
+
 std::string section_problem(const Scene& scene, int d, Vec3 at, const Sections& sections) {
   const auto text = [](double length) { return base::length_text(length); };
   Vec3 other = at;
@@ -168,6 +181,12 @@ std::string problem_of(const Scene& scene, int d) {
   return at ? section_problem(scene, d, *at, sections) : "";
 }
 
+bool is_short(const Scene& scene, int d) {
+  const Reach reach =
+      Reach::of(extent_of(scene, d), scene.domain.min[d], scene.domain.max[d], scene.largest);
+  return reach.spans && !reach.spans_fast;
+}
+
 /// Instants at which a body that goes to other places is looked at: a period of a vibration that
 /// is not much shorter than the run is seen.
 constexpr int k_instants = 32;
@@ -180,7 +199,13 @@ void check_body(const scenario::Setup& setup, std::size_t b, const bodies::Body&
     const Scene scene{setup.domain, body, body.placement(time), models.class_diameters.front(),
                       models.class_diameters.back()};
     const std::string problem = problem_of(scene, d);
-    if (problem.empty()) continue;
+    if (problem.empty()) {
+      if (n == 0 && is_short(scene, d)) {
+        diagnostics.warning(setup.bodies[b].where,
+                            "bodies." + body.name + ": " + short_reach(scene, d));
+      }
+      continue;
+    }
     const std::string when = n > 0 ? "after " + base::duration_text(time) + " it " : "";
     diagnostics.error(setup.bodies[b].where, "bodies." + body.name + ": " + when + problem);
     return;
