@@ -73,13 +73,21 @@ bool AbuttingBody::takes_over(Vec3 point, double reach, const bodies::SurfacePoi
     if (foot[d] < low[d] || foot[d] > high[d]) return false;
   }
   if (body->is_removed()) return false;
+  // Seldom is this one as near, which costs less to see.
+  const double limit = near.distance + flush;
+  const int parts = body->shape->parts();
+  int first_part = 0;
+  while (first_part < parts && !body->is_within(first_part, point, limit, place)) {
+    ++first_part;
+  }
+  if (first_part == parts) return false;
   const double depth = body->nearest(foot, place).distance;
   if (depth > flush) return false;
   // Steps of distance instead of differences: of three bodies that are equally near, one remains.
   const double rank = std::floor(near.distance / rounding);
-  for (int part = 0; part < body->shape->parts(); ++part) {
+  for (int part = first_part; part < parts; ++part) {
     if (depth >= -flush && !body->is_within(part, foot, flush, place)) continue;
-    const double here = body->contact(part, point, near.distance + flush, place).distance;
+    const double here = body->contact(part, point, limit, place).distance;
     const double mine = std::floor(here / rounding);
     if (mine < rank || (mine == rank && is_first)) return true;
   }

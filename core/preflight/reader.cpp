@@ -51,7 +51,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_reach(read.setup, models, diagnostics);
   check_softness(read.setup, models, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);
-  check_sensor_places(read.setup, registry, diagnostics);
+  check_sensor_places(read.setup, models.bodies, registry, diagnostics);
 }
 
 /// Looks at what was read without errors.

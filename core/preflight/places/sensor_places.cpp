@@ -21,9 +21,10 @@ constexpr std::string_view k_trajectory = "trajectory";
 
 class Places {
  public:
-  Places(const scenario::Setup& setup, const scenario::SensorSpec& spec,
-         const std::vector<sdk::Parameter>& parameters)
+  Places(const scenario::Setup& setup, const bodies::BodySet& bodies,
+         const scenario::SensorSpec& spec, const std::vector<sdk::Parameter>& parameters)
       : domain_(setup.domain),
+        bodies_(bodies),
         gravity_(setup.gravity),
         spec_(spec),
         parameters_(parameters),
@@ -44,7 +45,10 @@ class Places {
       if (const auto* place = get<Vec3>(name)) check_place(name, *place, diagnostics);
     }
     if (const auto* points = get<std::vector<Vec3>>("points")) {
-      for (const Vec3& place : *points) check_place("points", place, diagnostics);
+      for (const Vec3& place : *points) {
+        check_place("points", place, diagnostics);
+        check_air(place, diagnostics);
+      }
     }
   }
 
@@ -112,6 +116,16 @@ class Places {
     diagnostics.error(spec_.model.where, path(name) + ": " + base::place_text(place) +
                                              " lies outside" + domain_text());
   }
+  /// What is asked at points is of the air.
+  void check_air(Vec3 place, scenario::Diagnostics& diagnostics) const {
+    for (const bodies::Body& body : bodies_) {
+      if (body.displaces() || body.nearest(place).distance >= -slack_) continue;
+      diagnostics.warning(spec_.model.where, path("points") + ": " + base::place_text(place) +
+                                                 " lies in the body '" + body.name +
+                                                 "', where there is no air: what is told of it is "
+                                                 "0; move it out");
+    }
+  }
   [[nodiscard]] std::string path(std::string_view name) const {
     return spec_.model.path + "." + std::string(name);
   }
@@ -121,6 +135,7 @@ class Places {
   }
 
   const scenario::DomainSpec& domain_;
+  const bodies::BodySet& bodies_;
   Vec3 gravity_;
   const scenario::SensorSpec& spec_;
   const std::vector<sdk::Parameter>& parameters_;
@@ -129,11 +144,12 @@ class Places {
 
 }  // namespace
 
-void check_sensor_places(const scenario::Setup& setup, const registry::Registry& registry,
-                         scenario::Diagnostics& diagnostics) {
+void check_sensor_places(const scenario::Setup& setup, const bodies::BodySet& bodies,
+                         const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
   for (const scenario::SensorSpec& sensor : setup.sensors) {
     const registry::Entry* entry = registry.find("sensor", sensor.model.name);
-    if (entry != nullptr) Places(setup, sensor, entry->info.parameters).check(diagnostics);
+    if (entry == nullptr) continue;
+    Places(setup, bodies, sensor, entry->info.parameters).check(diagnostics);
   }
 }
 

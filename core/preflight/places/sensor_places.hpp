@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "bodies/body_set.hpp"
 #include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/setup.hpp"
@@ -9,8 +10,9 @@ namespace dust::preflight {
 
 /// Refuses sensors that look where nothing is: a box from `min` to `max` apart from the domain, a
 /// place among `points`, `from` or `to` outside it, a plane (`point`, `normal`) that its box does
-/// not meet. Lengths of these names, of any sensor.
-void check_sensor_places(const scenario::Setup& setup, const registry::Registry& registry,
-                         scenario::Diagnostics& diagnostics);
+/// not meet. Warns of `points`, at which the air is asked, in bodies. Lengths of these names, of
+/// any sensor.
+void check_sensor_places(const scenario::Setup& setup, const bodies::BodySet& bodies,
+                         const registry::Registry& registry, scenario::Diagnostics& diagnostics);
 
 }  // namespace dust::preflight

@@ -281,6 +281,27 @@ TEST_CASE("a lone point outside the domain shall be refused") {
                                        "nothing is seen there"}) == "");
 }
 
+TEST_CASE("a point in a body at which the air is asked shall be warned of") {
+  const auto warnings = [](const std::string& place) {
+    const Said all =
+        said({{"fluid", "{cells: [10, 5, 20], density: 1.2, viscosity: 18 uPa s}"},
+              {"domain.boundaries.front.air", "{model: no_slip}"},
+              {"domain.boundaries.back.air", "{model: total_pressure}"},
+              {"domain.boundaries.bottom.air", "{model: no_slip}"},
+              {"domain.boundaries.top.air", "{model: total_pressure}"},
+              {"drag", "{model: schiller_naumann}"},
+              {"voidage", "{model: centre}"},
+              {"sensors.tap", "{model: exposure, points: [[50, 25, 100 mm], " + place + "]}"}});
+    CHECK(all.errors == std::vector<std::string>{});
+    return std::count_if(all.warnings.begin(), all.warnings.end(), [](const std::string& line) {
+      return line.find("sensors.tap.points: (0.05, 0.025, 0.025) m lies in the body 'shelf'") !=
+             std::string::npos;
+    });
+  };
+  CHECK(warnings("[50, 25, 60 mm]") == 0);
+  CHECK(warnings("[50, 25, 25 mm]") == 1);
+}
+
 TEST_CASE("a trajectory along gravity shall be refused before the run") {
   const auto stream = [](const std::string& along) {
     return scenario::Override{
