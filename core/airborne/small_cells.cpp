@@ -15,23 +15,36 @@ struct Searcher {
     return std::min(flow.volume_before[static_cast<std::size_t>(cell)],
                     flow.volume_after[static_cast<std::size_t>(cell)]);
   }
-  /// The neighbour that most gas fills beyond an open face; -1 where there is none.
+  /// The neighbour that most gas fills beyond an open face. Of a cell that a body had closed before
+  /// the end of the step, with all its faces, that which most of its gas has gone to. -1 where
+  /// there is none.
   [[nodiscard]] std::ptrdiff_t host_of(std::ptrdiff_t cell) const {
+    const std::ptrdiff_t open =
+        best_neighbour(cell, [&](std::size_t d, std::ptrdiff_t face, double /*outward*/) {
+          return flow.passage.component[d][static_cast<std::size_t>(face)];
+        });
+    if (open >= 0) return open;
+    return best_neighbour(cell, [&](std::size_t d, std::ptrdiff_t face, double outward) {
+      return outward * flow.throughflow.component[d][static_cast<std::size_t>(face)];
+    });
+  }
+  /// That for which `weight` of the face between, times its gas, is largest and above 0.
+  template <class Weight>
+  [[nodiscard]] std::ptrdiff_t best_neighbour(std::ptrdiff_t cell, const Weight& weight) const {
     std::ptrdiff_t best = -1;
     double most = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
-      const auto& passage = flow.passage.component[d];
       const std::ptrdiff_t s = grid.stride[d];
-      const auto look = [&](std::ptrdiff_t face, std::ptrdiff_t neighbour) {
-        const double value = passage[static_cast<std::size_t>(face)] * share(neighbour);
+      const auto look = [&](std::ptrdiff_t face, std::ptrdiff_t neighbour, double outward) {
+        const double value = weight(d, face, outward) * share(neighbour);
         // Halo cells hold no gas of their own.
         if (value > most && is_inside_[static_cast<std::size_t>(neighbour)] != 0) {
           most = value;
           best = neighbour;
         }
       };
-      look(cell, cell - s);
-      look(cell + s, cell + s);
+      look(cell, cell - s, -1.0);
+      look(cell + s, cell + s, 1.0);
     }
     return best;
   }
