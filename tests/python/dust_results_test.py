@@ -2,6 +2,7 @@
 """dust_results_test.py ENGINE SOURCE VERSION: the Python package against what the engine writes."""
 
 import csv
+import json
 import pathlib
 import shutil
 import subprocess
@@ -81,6 +82,19 @@ class ARun(unittest.TestCase):
                          self.run_.summary["particles"]["emitted"])
         with self.assertRaisesRegex(ResultsError, "no figure 'net/mass_rat'.*'net/mass_rate'"):
             self.run_.value("sensors.lip.net.mass_rat")
+
+    def test_figures_with_paths_are_found_by_the_names_of_studies(self):
+        folder = FOLDER / "named"
+        folder.mkdir()
+        rate = {"value": 2.5, "unit": "kg/h", "uncertainty": None}
+        summary = {"dust_rates": {"left/right/rate": rate}, "particles": {"emitted": 7}}
+        (folder / "summary.json").write_text(json.dumps(summary))
+        (folder / "results.h5").write_bytes((FOLDER / "run" / "results.h5").read_bytes())
+        run = Run(folder)
+        self.assertEqual(run.value("dust_rates.left.right.rate"), 2.5)
+        self.assertEqual(run.value("particles.emitted"), 7)
+        with self.assertRaisesRegex(ResultsError, "no figure"):
+            run.value("dust_rates.left.rigt.rate")
 
     def test_sizes_and_times_are_tables(self):
         sizes = self.run_.size_classes

@@ -321,6 +321,18 @@ TEST_CASE("the load of a scenario written by engine new shall leave its feed fre
   CHECK(run.err.find("falls short") == std::string::npos);
 }
 
+TEST_CASE("a scenario written by engine new shall be valid whatever its file is called") {
+  const TemporaryFolder folder;
+  for (const char* name : {"2nd belt.yaml", "my.first-belt.yaml"}) {
+    CAPTURE(name);
+    const auto file = folder / name;
+    REQUIRE(engine({"new", "transfer", "-o", file}).status == 0);
+    const auto check = engine({"check", file});
+    INFO(check.err);
+    CHECK(check.status == 0);
+  }
+}
+
 TEST_CASE("a scenario written by engine new shall be valid in any sizes, without a warning") {
   const TemporaryFolder folder;
   const std::vector<std::vector<std::string>> all = {

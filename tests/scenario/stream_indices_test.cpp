@@ -114,3 +114,15 @@ TEST_CASE("a feed that ends while means are taken shall give no figures per load
   }
   CHECK(value(summary["stream_indices"], "entrained_air/flow") > 0.0);
 }
+
+TEST_CASE(
+    "a stream that the air does not feel shall have no air drawn along, and no void fraction") {
+  const TemporaryFolder folder;
+  const json summary = run_summary(k_stream, folder / "stream", {"--set", "coupling.one_way=true"});
+  const json& indices = summary["stream_indices"];
+  CHECK(indices.contains("observed"));
+  for (const auto& figure : indices.items()) {
+    CHECK_MESSAGE(!figure.key().starts_with("entrained_air"), figure.key());
+    CHECK_MESSAGE(!figure.key().starts_with("looseness"), figure.key());
+  }
+}
