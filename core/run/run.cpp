@@ -54,6 +54,12 @@ using Clock = RunTimes::Clock;
 
 volatile std::sig_atomic_t g_signal = 0;
 void on_signal(int signal) { g_signal = signal; }
+/// Before the first step: the run is made ready, writes its checkpoint and ends. A second signal
+/// ends it at once.
+void on_early_signal(int signal) {
+  g_signal = signal;
+  std::signal(signal, SIG_DFL);
+}
 
 /// Collects the fields of the sensors for a frame.
 class FieldsOfSensors final : public sdk::FieldSink {
@@ -590,6 +596,7 @@ void take_port(const RunOptions& options, std::optional<LiveReport>& live) {
 
 int run_scenario(const RunOptions& options) {
   base::ignore_write_signals();
+  base::catch_end_signals(on_early_signal);
   registry::Registry registry;
   registry.load(registry::Registry::search_path(options.plugin_path));
   const auto read =

@@ -51,6 +51,26 @@ def ends_in_good_order(options, work, number, bits):
         expect(run.returncode == 0 and digest(folder) == bits, f"{name}: goes on to the same bits", run.stderr)
 
 
+def listens(process, number):
+    """Whether a process has a handler of the signal."""
+    lines = pathlib.Path(f"/proc/{process.pid}/status").read_text().splitlines()
+    caught = next((line.split()[1] for line in lines if line.startswith("SigCgt:")), "0")
+    return int(caught, 16) >> (number - 1) & 1 == 1
+
+
+def ends_while_it_is_made_ready(options, work, bits):
+    """A signal long before the first step: there is a checkpoint to go on from all the same."""
+    folder = work / "early"
+    process = subprocess.Popen(command(options, folder, "--quiet"), stderr=subprocess.PIPE, text=True)
+    while process.poll() is None and not listens(process, signal.SIGINT):
+        pass
+    process.send_signal(signal.SIGINT)
+    said = process.communicate(timeout=60)[1]
+    expect(process.returncode == 130, f"early: status {process.returncode}", said)
+    run = subprocess.run(command(options, folder, "--quiet", "--resume"), capture_output=True, text=True)
+    expect(run.returncode == 0 and digest(folder) == bits, "early: goes on to the same bits", run.stderr)
+
+
 def outlives_its_terminal(options, work):
     folder = work / "nohup"
     process = started(options, folder, lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
@@ -87,6 +107,7 @@ def main():
         bits = digest(work / "whole")
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1, signal.SIGXCPU):
             ends_in_good_order(options, work, number, bits)
+        ends_while_it_is_made_ready(options, work, bits)
         outlives_its_terminal(options, work)
         goes_on_without_readers(options, work, bits)
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Means over no time: a run that ended before they began.
+#include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
 
 #include <doctest/doctest.h>
@@ -58,5 +59,5 @@ TEST_CASE("the number of impacts shall scatter as what stands for many comes at 
   step(*sensor, world);
   const Figures figures = summary_of(*sensor);
   CHECK(figures["impacts"] == 9000.0);
-  CHECK(figures.at("impacts").uncertainty == doctest::Approx(3000.0));
+  CHECK(figures.at("impacts").uncertainty == dust::test::approx(3000.0));
 }
