@@ -345,7 +345,7 @@ bool passes_air(const Setup& setup, std::size_t side, const sdk::BoundaryConditi
     if (is_passed_at(setup.time.end * step / k_times)) return true;
   }
   // A run that is given a later end is to find the same answer.
-  for (double later = setup.time.end; later < k_latest; later *= 2.0) {
+  for (double later = setup.time.end; later < k_latest; later *= 10.0) {
     if (is_passed_at(later)) return true;
   }
   return false;

@@ -39,8 +39,10 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_suctions(read.setup, models, diagnostics);
   check_suction_covers(read.setup, models, diagnostics);
   check_openings(read.setup, read.dust, models, first, diagnostics);
-  const SideModelSet sides(read.setup, registry);
-  check_drift(read.setup, read.dust, wind_speed(read.setup, sides.models()), models, diagnostics);
+  // Every face of the sides is asked: only where there is a field of dust.
+  const double wind =
+      read.dust.field ? wind_speed(read.setup, SideModelSet(read.setup, registry).models()) : 0.0;
+  check_drift(read.setup, read.dust, wind, models, diagnostics);
   check_liberation(read.setup, read.dust, registry);
   check_feeds(read.setup, read.dust, read.start.from.has_value(), models, diagnostics);
   check_body_places(read.setup, models, diagnostics);

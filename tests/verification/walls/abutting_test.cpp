@@ -42,7 +42,7 @@ const Boxes k_nested{{Vec3{-0.08, -0.08, -0.01}, Vec3{0.0, 0.08, 0}},
                      {Vec3{-0.01, -0.08, -0.02}, Vec3{0.08, 0.08, 0}},
                      {Vec3{-0.08, -0.004, -0.005}, Vec3{0.08, 0.004, 0}}};
 
-/// Water between the grain and the floor: pulls harder than the grain weighs.
+/// Sticks harder than the grain weighs.
 const DemRig::Choice k_wet{"jkr", {{"surface_energy", 0.05}}};
 
 struct Rolling {
@@ -54,48 +54,32 @@ struct Rolling {
 
 /// A grain on a floor of boxes.
 struct Floor {
-  DemRig rig;
+  WallRig rig{0.9, 0.5, k_diameter};
   std::unique_ptr<dust::particles::Dem> dem;
   std::unique_ptr<Stepper> stepper;
 
   Floor(const Boxes& boxes, const Rolling& rolling, NewGrain grain) {
-    const int sand = rig.material(2650, 50e6, 0.3);
-    rig.laws_of(sand, sand, {"hertz_mindlin", {{"restitution", 0.9}, {"friction", 0.5}}}, {},
-                rolling.cohesion);
-    rig.diameters = {k_diameter};
+    if (!rolling.cohesion.name.empty()) {
+      rig.laws.clear();
+      rig.laws_of(rig.sand, rig.sand, {"hertz_mindlin", {{"restitution", 0.9}, {"friction", 0.5}}},
+                  {}, rolling.cohesion);
+    }
     if (rolling.diameter != k_diameter)
       rig.diameters.insert(rig.diameters.begin(), rolling.diameter);
-    rig.setup.time.expected_speed = 2.0;
     rig.setup.domain.min = {-0.1, -0.1, -0.1};
     rig.setup.domain.max = {0.1, 0.1, 0.1};
     rig.setup.gravity = rolling.gravity;
-    for (const auto& [low, high] : boxes) add_box(low, high);
+    for (const auto& [low, high] : boxes) rig.body("box", {{"min", low}, {"max", high}});
     if (rolling.roller > 0.0) {
-      add("cylinder", {{"base", Vec3{0, -0.08, -rolling.roller}},
-                       {"axis", Vec3{0, 1, 0}},
-                       {"length", 0.16},
-                       {"radius", rolling.roller}});
+      rig.body("cylinder", {{"base", Vec3{0, -0.08, -rolling.roller}},
+                            {"axis", Vec3{0, 1, 0}},
+                            {"length", 0.16},
+                            {"radius", rolling.roller}});
     }
     dem = rig.make();
     grain.diameter = rolling.diameter;
     dem->insert(std::vector<NewGrain>{grain});
     stepper = std::make_unique<Stepper>(*dem);
-  }
-  void add_box(Vec3 low, Vec3 high) { add("box", {{"min", low}, {"max", high}}); }
-  void add(const std::string& shape, const std::map<std::string, Value>& values) {
-    dust::scenario::BodySpec spec;
-    spec.name = shape + std::to_string(rig.bodies.size());
-    spec.shape.kind = "shape";
-    spec.shape.name = shape;
-    for (const auto& kind : dust::bodies::shape_catalogue()) {
-      if (kind.name != shape) continue;
-      for (const dust::sdk::Parameter& p : kind.parameters) {
-        const auto given = values.find(p.name);
-        spec.shape.values.push_back(given == values.end() ? Value{} : given->second);
-      }
-    }
-    rig.bodies.push_back(dust::bodies::make_body(
-        rig.setup, spec, std::vector<std::unique_ptr<dust::sdk::Motion>>{}));
   }
   void until(double time) {
     while (stepper->time() < time) stepper->step();
