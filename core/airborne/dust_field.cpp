@@ -331,23 +331,23 @@ void DustField::save(sdk::ArchiveWriter& archive) const {
   if (acceleration_) acceleration_->save(archive);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     const Class& c = classes_[n];
-    const std::string name = "class_" + std::to_string(n) + "_";
-    archive.numbers(name + "mass", c.mass);
-    if (!keeps_layers()) archive.numbers(name + "deposit", c.deposit);
-    archive.number(name + "released", c.released.sum());
-    archive.number(name + "released_lost", c.released.lost());
-    archive.numbers(name + "sides", c.losses.sides);
-    archive.numbers(name + "outlets", c.losses.outlets);
-    archive.numbers(name + "surfaces", c.surfaces);
+    const auto name = [n](const char* what) { return saved::of_class(n, what); };
+    archive.numbers(name("mass"), c.mass);
+    if (!keeps_layers()) archive.numbers(name("deposit"), c.deposit);
+    archive.number(name(saved::k_released), c.released.sum());
+    archive.number(name("released_lost"), c.released.lost());
+    archive.numbers(name("sides"), c.losses.sides);
+    archive.numbers(name(saved::k_outlets), c.losses.outlets);
+    archive.numbers(name(saved::k_surfaces), c.surfaces);
     if (spec_.scavenging) {
-      archive.numbers(name + "caught", std::array{c.caught.sum(), c.caught.lost()});
+      archive.numbers(name("caught"), std::array{c.caught.sum(), c.caught.lost()});
     }
     if (resuspension_) {
-      archive.numbers(name + "resuspended", std::array{c.resuspended.sum(), c.resuspended.lost()});
+      archive.numbers(name("resuspended"), std::array{c.resuspended.sum(), c.resuspended.lost()});
     }
-    if (do_surfaces_run_) archive.numbers(name + "carried_out_on_surfaces", c.carried_out);
+    if (do_surfaces_run_) archive.numbers(name(saved::k_carried_out), c.carried_out);
     if (acceleration_) {
-      archive.numbers(name + "limited", std::array{c.airborne_time, c.limited_time});
+      archive.numbers(name("limited"), std::array{c.airborne_time, c.limited_time});
     }
   }
 }
@@ -359,29 +359,29 @@ void DustField::load(sdk::ArchiveReader& archive) {
   if (acceleration_) acceleration_->load(archive);
   for (std::size_t n = 0; n < classes_.size(); ++n) {
     Class& c = classes_[n];
-    const std::string name = "class_" + std::to_string(n) + "_";
-    c.mass = archive.numbers(name + "mass");
-    if (!keeps_layers()) c.deposit = archive.numbers(name + "deposit");
-    const double released = archive.number(name + "released");
-    c.released = {released, archive.number(name + "released_lost")};
-    const std::vector<double> sides = archive.numbers(name + "sides");
+    const auto name = [n](const char* what) { return saved::of_class(n, what); };
+    c.mass = archive.numbers(name("mass"));
+    if (!keeps_layers()) c.deposit = archive.numbers(name("deposit"));
+    const double released = archive.number(name(saved::k_released));
+    c.released = {released, archive.number(name("released_lost"))};
+    const std::vector<double> sides = archive.numbers(name("sides"));
     if (c.mass.size() != grid_.size || sides.size() != c.losses.sides.size()) {
       throw sdk::ModelError("the checkpoint's dust belongs to another grid");
     }
     std::copy(sides.begin(), sides.end(), c.losses.sides.begin());
-    c.losses.outlets = archive.numbers(name + "outlets");
-    c.surfaces = archive.numbers(name + "surfaces");
+    c.losses.outlets = archive.numbers(name(saved::k_outlets));
+    c.surfaces = archive.numbers(name(saved::k_surfaces));
     if (spec_.scavenging) {
-      const std::vector<double> caught = archive.numbers(name + "caught");
+      const std::vector<double> caught = archive.numbers(name("caught"));
       c.caught = {caught.at(0), caught.at(1)};
     }
     if (resuspension_) {
-      const std::vector<double> resuspended = archive.numbers(name + "resuspended");
+      const std::vector<double> resuspended = archive.numbers(name("resuspended"));
       c.resuspended = {resuspended.at(0), resuspended.at(1)};
     }
-    if (do_surfaces_run_) c.carried_out = archive.numbers(name + "carried_out_on_surfaces");
+    if (do_surfaces_run_) c.carried_out = archive.numbers(name(saved::k_carried_out));
     if (acceleration_) {
-      const std::vector<double> limited = archive.numbers(name + "limited");
+      const std::vector<double> limited = archive.numbers(name("limited"));
       c.airborne_time = limited.at(0);
       c.limited_time = limited.at(1);
     }

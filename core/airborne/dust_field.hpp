@@ -14,12 +14,25 @@
 #include "setup/dust_setup.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace dust::airborne {
+
+/// Names in a checkpoint of what a field saves, for those who bring it into another scenario.
+namespace saved {
+inline constexpr const char* k_released = "released";                    ///< [kg]
+inline constexpr const char* k_surfaces = "surfaces";                    ///< [kg] by surface
+inline constexpr const char* k_carried_out = "carried_out_on_surfaces";  ///< [kg] by surface
+inline constexpr const char* k_outlets = "outlets";  ///< [kg/m3] of a cell, by opening
+[[nodiscard]] inline std::string of_class(std::size_t size_class, const std::string& name) {
+  return "class_" + std::to_string(size_class) + "_" + name;
+}
+}  // namespace saved
 
 /// What became of the dust of a class since the start [kg]: released = airborne + deposited
 /// + carried out + caught + left + drawn out, to rounding.

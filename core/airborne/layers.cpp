@@ -52,12 +52,12 @@ void Layers::save(sdk::ArchiveWriter& archive) const {
     places.insert(places.end(), {place.first, place.second});
     masses.insert(masses.end(), layer.begin(), layer.end());
   }
-  archive.integers("layer_places", places);
+  archive.integers(k_saved_layer_places, places);
   archive.numbers("layer_masses", masses);
 }
 
 void Layers::load(sdk::ArchiveReader& archive) {
-  const std::vector<std::int64_t> places = archive.integers("layer_places");
+  const std::vector<std::int64_t> places = archive.integers(k_saved_layer_places);
   const std::vector<double> masses = archive.numbers("layer_masses");
   places_.clear();
   mass_.clear();

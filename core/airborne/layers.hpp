@@ -13,6 +13,9 @@
 
 namespace dust::airborne {
 
+/// Name in a checkpoint of the pairs of cell and surface on which layers lie.
+inline constexpr const char* k_saved_layer_places = "layer_places";
+
 /// What lies on each piece of wall [kg], by class: rows in the order of the pieces.
 class Layers {
  public:

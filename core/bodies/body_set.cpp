@@ -348,15 +348,34 @@ double Body::largest_displacing_speed() const {
   return speed;
 }
 
+namespace {
+
+/// The box in a body's frame that holds a box in the domain's.
+void box_in_body(const Placement& at, Vec3& min, Vec3& max) {
+  const Vec3 corner[2] = {min, max};
+  for (int n = 0; n < 8; ++n) {
+    const Vec3 p = at.to_body({corner[n & 1].x, corner[n >> 1 & 1].y, corner[n >> 2].z});
+    for (int d = 0; d < 3; ++d) {
+      min[d] = n == 0 ? p[d] : std::min(min[d], p[d]);
+      max[d] = n == 0 ? p[d] : std::max(max[d], p[d]);
+    }
+  }
+}
+
+}  // namespace
+
 Triangles Body::triangles(Vec3 min, Vec3 max, double edge) const {
   return triangles(min, max, edge, Placement::turned(frame_origin, frame_axis, frame_angle));
 }
 
 Triangles Body::triangles(Vec3 min, Vec3 max, double edge, const Placement& at) const {
-  // The shape clips in its own frame: give it a box that holds the domain in any orientation.
+  // The shape clips in its own frame.
   Triangles t;
+  box_in_body(at, min, max);
   if (const RunningParts* const parts = running_parts(*this)) {
     const double run = run_at(*this, *parts, at);
+    const Vec3 way = run * parts->running_direction();
+    for (int d = 0; d < 3; ++d) (way[d] > 0.0 ? max : min)[d] += way[d];
     t = parts->triangles_after(run, min, max, edge);
     for (Vec3& p : t) p -= run * parts->running_direction();
   } else {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/abutting.hpp"
 
+#include "bodies/survey/bounds.hpp"
 #include "bodies/survey/gap.hpp"
 #include "particles/surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace dust::particles {
 namespace {
@@ -25,38 +25,11 @@ constexpr double k_rounding = 1e-15;
 /// they count as touching: that costs time, but changes nothing.
 constexpr std::size_t k_work = 20'000;
 
-struct Box {
-  Vec3 low{k_far, k_far, k_far};
-  Vec3 high{-k_far, -k_far, -k_far};
-  static constexpr double k_far = std::numeric_limits<double>::infinity();
-
-  [[nodiscard]] bool is_empty() const {
-    return !(low.x <= high.x && low.y <= high.y && low.z <= high.z);
-  }
-};
-
 /// As far as a box far beyond the domain, with room for what chords cut off: a filter, no more.
-Box bounds(const Body& body, Vec3 min, Vec3 max) {
-  Box box;
+bodies::Bounds bounds(const Body& body, Vec3 min, Vec3 max) {
   const double edge = bodies::written_edge(min, max);
   const double far = 2.0 * norm(max - min);
-  const Vec3 more{far, far, far};
-  for (const Vec3& p : body.triangles(min - more, max + more, edge)) {
-    for (int d = 0; d < 3; ++d) {
-      box.low[d] = std::min(box.low[d], p[d] - edge);
-      box.high[d] = std::max(box.high[d], p[d] + edge);
-    }
-  }
-  return box;
-}
-
-Box common(const Box& a, const Box& b) {
-  Box both;
-  for (int d = 0; d < 3; ++d) {
-    both.low[d] = std::max(a.low[d], b.low[d]);
-    both.high[d] = std::min(a.high[d], b.high[d]);
-  }
-  return both;
+  return bodies::bounds_of(body, body.placement(0.0), min, max, far, edge).grown(edge);
 }
 
 bool may_touch(const Body& a, const Body& b, Vec3 min, Vec3 max, double tolerance) {
@@ -97,15 +70,15 @@ bool AbuttingBody::takes_over(Vec3 point, double reach, const bodies::SurfacePoi
 void find_abutting(const bodies::BodySet& bodies, Vec3 min, Vec3 max, std::span<Surface> surfaces) {
   const double size = norm(max - min);
   const double tolerance = k_flush * size;
-  std::vector<Box> boxes;
+  std::vector<bodies::Bounds> boxes;
   boxes.reserve(bodies.size());
   for (const Body& body : bodies) {
-    boxes.push_back(body.displaces() ? Box{} : bounds(body, min, max));
+    boxes.push_back(body.displaces() ? bodies::Bounds{} : bounds(body, min, max));
   }
   std::vector<AbuttingBodies> of_body(bodies.size());
   for (std::size_t j = 1; j < bodies.size(); ++j) {
     for (std::size_t i = 0; i < j; ++i) {
-      const Box both = common(boxes[i], boxes[j]);
+      const bodies::Bounds both = bodies::common(boxes[i], boxes[j]);
       if (both.is_empty() || !may_touch(bodies[i], bodies[j], min, max, tolerance)) continue;
       const auto add = [&](std::size_t to, std::size_t other) {
         of_body[to].push_back({.body = &bodies[other],

@@ -484,6 +484,9 @@ class Sensor : public Guarded<sdk::Sensor> {
   void observe(const sdk::WorldView& world) override {
     ask("observe", "a look at the world", &sdk::Sensor::observe, world);
   }
+  void begin(const sdk::WorldView& world) override {
+    ask("begin", "the world as it begins", &sdk::Sensor::begin, world);
+  }
   [[nodiscard]] bool wants_contacts() const override {
     return get("wants_contacts", &sdk::Sensor::wants_contacts);
   }

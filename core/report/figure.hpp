@@ -36,9 +36,11 @@ struct Figure {
     return largest > 0.0 && (is_of_class() ? largest < limit : largest <= limit);
   }
   /// What passes, gets out or is there, per tonne of load; of ways to and fro what is left of both.
-  [[nodiscard]] bool is_per_load() const {
-    const bool is_part = direction.empty() || direction == "net" || !towards.empty();
-    return quantity == "mass_per_load" && is_part;
+  [[nodiscard]] bool is_per_load() const { return quantity == "mass_per_load" && is_part(); }
+  /// The same per time.
+  [[nodiscard]] bool is_per_time() const { return quantity == "mass_rate" && is_part(); }
+  [[nodiscard]] bool is_part() const {
+    return direction.empty() || direction == "net" || !towards.empty();
   }
 };
 

@@ -214,6 +214,7 @@ Highlights highlights_of(const RunText& run) {
       if (figure.role == "passage") highlights.dust.push_back(figure);
       if (figure.role == "stock") highlights.held.push_back(figure);
     }
+    if (figure.is_per_time() && figure.role == "opening") highlights.leaving.push_back(figure);
     collect_place(figure, places);
     // Figures of single size classes are no part of the whole stream.
     if (figure.role != "stream_quantile" || figure.is_of_class()) continue;
@@ -225,6 +226,7 @@ Highlights highlights_of(const RunText& run) {
   }
   highlights.fed = dust_fed(run.summary, run.dust);
   keep_dust(highlights.openings, run.figures, run.dust);
+  keep_dust(highlights.leaving, run.figures, run.dust);
   keep_dust(highlights.dust, run.figures, run.dust);
   keep_dust(highlights.held, run.figures, run.dust);
   const auto is_larger = [](const Figure& a, const Figure& b) { return a.value > b.value; };
@@ -260,9 +262,8 @@ int first_place(const Highlights& highlights) {
   for (std::size_t k = 0; k < highlights.places.size(); ++k) {
     const LowPlace& place = highlights.places[k];
     if (place.dust_share <= 0.0) continue;
-    if (place.depth.uncertainty > 0.0 && place.depth.value < k_sure * place.depth.uncertainty) {
-      continue;
-    }
+    const bool is_known = place.depth.uncertainty >= 0.0;
+    if (!is_known || place.depth.value < k_sure * place.depth.uncertainty) continue;
     if (best < 0 ||
         place.dust_share > highlights.places[static_cast<std::size_t>(best)].dust_share) {
       best = static_cast<int>(k);

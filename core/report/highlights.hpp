@@ -39,6 +39,7 @@ struct DustClass {
 /// The figures of a run that a reader asks for first.
 struct Highlights {
   std::vector<Figure> openings;  ///< dust that gets out, grams per tonne, the largest first
+  std::vector<Figure> leaving;   ///< the same per time [kg/s], also where nothing was fed
   std::vector<Figure> dust;      ///< other passages of dust, grams per tonne, the largest first
   std::vector<Figure> held;      ///< dust present at the end, per tonne emitted until then
   double fed = -1.0;             ///< [g/t] dust in the load; negative: not known

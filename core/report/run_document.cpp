@@ -102,11 +102,16 @@ std::vector<Parting> partings_of(const std::vector<DustOrigin>& origins,
 }
 
 /// Asks the frames how much dust lies near each place, and where dust is at all.
-json look_for_dust(const H5Source& source, const View& view, const DustSizes& dust,
+json look_for_dust(const H5Source& source, const View& view, bool is_thin, const DustSizes& dust,
                    Highlights& highlights) {
   std::vector<DustPlace> places;
   for (const LowPlace& place : highlights.places) {
-    places.push_back({place.x.value, place.z.value, k_reach, 0.0});
+    DustPlace& asked = places.emplace_back();
+    asked.x = place.x.value;
+    asked.z = place.z.value;
+    asked.reach = k_reach;
+    const bool has_depth = !is_thin && !place.y.name.empty() && std::isfinite(place.y.value);
+    if (has_depth) asked.y = place.y.value;
   }
   const DustMap map = dust_map_of(source, view, dust, places);
   if (!map.share.empty()) {
@@ -162,7 +167,7 @@ json frames_json(const std::filesystem::path& folder, RunText& run, Highlights& 
   for (const auto& entry : airborne_classes.items()) airborne.push_back(entry.key());
   data["space"] = space_of(source, box, airborne);
   data["air"] = air_of(source);
-  data["dust_map"] = look_for_dust(source, view, run.dust, highlights);
+  data["dust_map"] = look_for_dust(source, view, box.is_thin(), run.dust, highlights);
   data["release_map"] = release_map_of(source);
   const double load = number_at(object_at(run.summary, "mass_kg"), "emitted").value_or(0.0);
   if (!view.is_empty()) {

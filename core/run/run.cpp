@@ -33,6 +33,7 @@
 #include "run/summary/series_row.hpp"
 #include "run/summary/summary.hpp"
 #include "run/summary/summary_audit.hpp"
+#include "run/summary/summary_dust.hpp"
 #include "run/summary/summary_emitters.hpp"
 #include "run/summary/taken_cost.hpp"
 #include "scenario/diagnostics.hpp"
@@ -344,7 +345,7 @@ class Run {
 
   int close() {
     take_times();
-    for (const std::string& text : shortfalls(simulation_)) warn(text, facts_);
+    for (const std::string& text : shortfalls(simulation_, facts_)) warn(text, facts_);
     const auto& dem = simulation_.dem();
     const std::string overlaps = overlap_warning(dem.report(), dem.time_steps().expected_speed);
     // A run that failed has its own reason, often this one.
@@ -551,14 +552,18 @@ void start(Simulation& simulation, Branch* branch) {
   }
 }
 
-StartFacts start_facts(const Branch& branch) {
+StartFacts start_facts(const Branch& branch, const Simulation& simulation) {
+  CountsBefore before = branch.before();
+  before.mass = simulation.dem().balance().mass_emitted;
+  before.dust = dust_so_far(simulation);
   return {.state = branch.origin().state().file().string(),
           .time = branch.origin().time(),
           .particles = branch.report().particles,
           .contacts = branch.report().contacts,
           .without_past = branch.report().without_past,
           .is_same = branch.is_same(),
-          .sensors = branch.sensors_going_on()};
+          .sensors = branch.sensors_going_on(),
+          .before = std::move(before)};
 }
 
 RunFacts facts_of(const scenario::ReadResult& read, const std::vector<io::InputFile>& inputs,
@@ -635,7 +640,7 @@ int run_scenario(const RunOptions& options) {
   facts.models = used_models(read, registry);
   facts.past_warnings = branching.warning_lines();
   for (const std::string& warning : facts.past_warnings) warn(warning, facts);
-  if (branch) facts.start = start_facts(*branch);
+  if (branch) facts.start = start_facts(*branch, *simulation);
   branch.reset();  // the other run's particles
   output.open();
   const fs::path folder = output.path();

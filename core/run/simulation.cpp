@@ -106,6 +106,16 @@ double Simulation::steady_after_given() const {
   return dust_setup_.given ? dust_setup_.given->steady_after : 0.0;
 }
 
+void Simulation::begin_sensors(std::span<const std::string> going_on) {
+  sdk::WorldView view = world();
+  view.interval = 0.0;  // nothing has been looked at
+  for (std::size_t n = 0; n < models_.sensors.size(); ++n) {
+    const std::string& name = setup_.sensors[n].name;
+    if (std::find(going_on.begin(), going_on.end(), name) != going_on.end()) continue;
+    models_.sensors[n]->begin(view);
+  }
+}
+
 void Simulation::begin_dust_figures() {
   if (!dust_figures_ || steady_after_given() > 0.0) return;
   const double begin = time();

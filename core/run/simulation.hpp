@@ -22,6 +22,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,9 @@ class Simulation {
   };
   /// In place of start(): `give` gives them the state of another run.
   void start_from(const std::function<void(const Owners&)>& give);
+  /// In a run that has started from another: shows the world as it is to sensors that begin now,
+  /// all but those that go on.
+  void begin_sensors(std::span<const std::string> going_on);
   /// In a run that has started from another: where the scenario does not say when means of dust
   /// begin, they do in the middle of what is ahead, anew.
   void begin_dust_figures();

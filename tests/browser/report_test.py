@@ -209,7 +209,7 @@ def check_stream(chromium, run_folder, source):
     """Quantiles of a stream are drawn as its path: a canvas with its numbers and picture to take away."""
     data = json.loads((run_folder / "report.json").read_text())
     part = lambda value: {"value": value, "error": 0.001}
-    data["stream"] = [{"drop": h, "low": part(0.7 * h ** 0.5 - 0.01), "median": part(0.7 * h ** 0.5), "high": part(0.7 * h ** 0.5 + 0.01)} for h in (0.02, 0.05, 0.1)]
+    data["stream"] = [{"sensor": "stream", "drop": h, "low": part(0.7 * h ** 0.5 - 0.01), "median": part(0.7 * h ** 0.5), "high": part(0.7 * h ** 0.5 + 0.01)} for h in (0.02, 0.05, 0.1)]
     folder = run_folder.parent / "stream"
     folder.mkdir()
     (folder / "report.json").write_text(json.dumps(data))

@@ -82,6 +82,9 @@ class ARun(unittest.TestCase):
                          self.run_.summary["particles"]["emitted"])
         with self.assertRaisesRegex(ResultsError, "no figure 'net/mass_rat'.*'net/mass_rate'"):
             self.run_.value("sensors.lip.net.mass_rat")
+        for name in ("sensors.lip", "sensors.", "particles.emitted.x", "size_classes.0.diameter_m"):
+            with self.assertRaises(ResultsError, msg=name):
+                self.run_.value(name)
 
     def test_figures_with_paths_are_found_by_the_names_of_studies(self):
         folder = FOLDER / "named"

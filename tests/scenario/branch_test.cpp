@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -236,4 +238,151 @@ TEST_CASE("a resumed branch shall know that it is one, and what was warned of wh
   CHECK(parts["start_from"] == whole["start_from"]);
   REQUIRE(!whole["warnings"].empty());
   CHECK(parts["warnings"] == whole["warnings"]);
+}
+
+TEST_CASE("a feed whose grains become denser or lighter shall go on with its mass flow") {
+  const TemporaryFolder folder;
+  REQUIRE(run(folder / "first", "14 ms").status == 0);
+  const auto emitted = [&](const char* name) {
+    const auto summary = nlohmann::json::parse(read_file(folder / name / "summary.json"));
+    return summary["emitters"]["feed"]["achieved"]["mass_kg"].get<double>();  // as they came
+  };
+  const double before = emitted("first");
+  for (const std::string density : {"5300 kg/m3", "1325 kg/m3"}) {
+    CAPTURE(density);
+    const auto branch = run(
+        folder / "branch", "24 ms",
+        {"start_from=" + (folder / "first").string(), "materials.sand.density=" + density}, "2");
+    INFO(branch.err);
+    REQUIRE(branch.status == 0);
+    // 10 ms of 6 g/s, to three grains of 0.6 mm at the most: those that wait and half ones.
+    CHECK(std::abs(emitted("branch") - before - 6e-5) < 3.0 * 5300.0 * 1.131e-10);
+    fs::remove_all(folder / "branch");
+  }
+}
+
+TEST_CASE("a sensor that begins in a branch shall not take what was emitted before as its feed") {
+  const TemporaryFolder folder;
+  REQUIRE(run(folder / "first", "14 ms").status == 0);
+  const auto branch = run(folder / "branch", "34 ms",
+                          {"start_from=" + (folder / "first").string(),
+                           "sensors.spilt={model: spillage, min: [0, 0, 50 mm], max: [340, 11, 50 "
+                           "mm], steady_after: 1 ms}"});
+  INFO(branch.err);
+  REQUIRE(branch.status == 0);
+  const auto summary = nlohmann::json::parse(read_file(folder / "branch" / "summary.json"));
+  // Nothing has fallen yet, of an even feed: 0 g/t, not "feed not even".
+  CHECK(summary["sensors"]["spilt"]["grams_per_tonne"]["value"] == 0.0);
+}
+
+namespace {
+
+/// Two grains that fly through the open sides at 2 and 20 ms.
+const std::string k_fliers =
+    "time: {end: 30 ms, fluid_step: 1 ms, output_every: 10 ms}\n"
+    "gravity: [0, 0, 0]\n"
+    "interactions:\n"
+    "  - between: [sand, sand]\n"
+    "    contact: {model: hertz_mindlin, restitution: 0.5, friction: 0.3}\n"
+    "emitters:\n"
+    "  two: {model: single, material: sand, positions: [[2, 10, 20 mm], [10, 10, 20 mm]], "
+    "diameters: [2 mm], velocities: [[-1, 0, 0 m/s], [0, 0.5, 0 m/s]]}\n";
+
+}  // namespace
+
+TEST_CASE("counts of what left through each side shall go on in a branch") {
+  const TemporaryFolder folder;
+  const fs::path scenario = folder / "fliers.yaml";
+  write_box(scenario, k_fliers);
+  REQUIRE(run(folder / "first", "10 ms", {}, "1", scenario).status == 0);
+  const auto branch =
+      run(folder / "branch", "30 ms",
+          {"start_from=" + (folder / "first").string(), "interactions[0].contact.restitution=0.6"},
+          "1", scenario);
+  INFO(branch.err);
+  REQUIRE(branch.status == 0);
+  const auto summary = nlohmann::json::parse(read_file(folder / "branch" / "summary.json"));
+  CHECK(summary["particles"]["left"] == 2);
+  CHECK(summary["health"]["grains_left"]["left"]["count"] == 1);
+  CHECK(summary["health"]["grains_left"]["back"]["count"] == 1);
+}
+
+TEST_CASE("an emitter of a branch whose grains would have come before shall be refused") {
+  const TemporaryFolder folder;
+  const fs::path scenario = folder / "fliers.yaml";
+  write_box(scenario, k_fliers);
+  REQUIRE(run(folder / "first", "10 ms", {}, "1", scenario).status == 0);
+  const auto branch = [&](const std::string& time) {
+    return run(folder / "branch", "12 ms",
+               {"start_from=" + (folder / "first").string(),
+                "emitters.more={model: single, material: sand, positions: [[10, 10, 5 mm]], "
+                "diameters: [2 mm]" +
+                    time + "}"},
+               "1", scenario);
+  };
+  const auto refused = branch("");
+  CHECK(refused.status == 2);
+  INFO(refused.err);
+  CHECK(refused.err.find("emitters.more: its grains come at 0 s, before this run begins at 0.01 s: "
+                         "give it a 'time' from then on") != std::string::npos);
+  CHECK(!fs::exists(folder / "branch"));
+  const auto taken = branch(", time: 10 ms");
+  INFO(taken.err);
+  REQUIRE(taken.status == 0);
+  const auto summary = nlohmann::json::parse(read_file(folder / "branch" / "summary.json"));
+  CHECK(summary["particles"]["emitted"] == 3);
+}
+
+TEST_CASE("a branch on another grid shall begin its maps of where dust came off anew") {
+  const TemporaryFolder folder;
+  const std::string scenario = DUST_SOURCE "/tests/scenario/dusty_bounce.yaml";
+  // The grain meets the plate after 3.5 ms, in cells that the first grid does not have.
+  REQUIRE(run(folder / "first", "1 ms", {}, "1", scenario).status == 0);
+  for (const std::string cells : {"[20, 20, 20]", "[3, 3, 3]"}) {
+    CAPTURE(cells);
+    const auto branch =
+        run(folder / "branch", "8 ms",
+            {"start_from=" + (folder / "first").string(), "fluid.cells=" + cells}, "1", scenario);
+    INFO(branch.err);
+    REQUIRE(branch.status == 0);
+    const auto summary = nlohmann::json::parse(read_file(folder / "branch" / "summary.json"));
+    const auto& ore = summary["dust_on_grains"]["classes"]["10_um"];
+    CHECK(ore["set_free_kg"].get<double>() > 0.0);
+    CHECK(std::abs(ore["balance_error"].get<double>()) < 1e-9);
+    fs::remove_all(folder / "branch");
+  }
+}
+
+TEST_CASE("rates and shares of a hood that begins in a branch shall count from there") {
+  const TemporaryFolder folder;
+  const std::string scenario = DUST_SOURCE "/tests/scenario/dusty_stream.yaml";
+  const std::string rule = "dust.finer_than=5 mm";  // all of the stream
+  REQUIRE(run(folder / "first", "0.3 s", {rule}, "1", scenario).status == 0);
+  const std::vector<std::string> settings = {
+      rule, "start_from=" + (folder / "first").string(),
+      "domain.boundaries.top.air={model: static_pressure, pressure: 0 Pa}",
+      "domain.boundaries.bottom.air={model: hood, flow: 3.6 l/s, min: [0, 0, 0], max: [60, 60, 0 "
+      "mm]}"};
+  const auto summary = [&](const char* name) {
+    return nlohmann::json::parse(read_file(folder / name / "summary.json"));
+  };
+  REQUIRE(run(folder / "branch", "0.35 s", settings, "1", scenario).status == 0);
+  // Also of one that was resumed.
+  std::vector<std::string> resumed = {"run",   scenario,         "-o",       folder / "branch",
+                                      "--set", "time.end=0.4 s", "--resume", "--quiet"};
+  for (const std::string& setting : settings) resumed.insert(resumed.end(), {"--set", setting});
+  const auto done = engine(resumed);
+  INFO(done.err);
+  REQUIRE(done.status == 0);
+  const auto first = summary("first"), branch = summary("branch");
+  const auto& hood = branch["hoods"]["bottom"];
+  INFO(branch["hoods"].dump());
+  const double dust = hood["dust_kg"];
+  REQUIRE(dust > 0.0);
+  const double load =
+      branch["mass_kg"]["emitted"].get<double>() - first["mass_kg"]["emitted"].get<double>();
+  CHECK(hood["dust_kg_per_h"].get<double>() == dust::test::approx(3600.0 * dust / 0.1));
+  CHECK(hood["dust_g_per_tonne"].get<double>() == dust::test::approx(1e6 * dust / load));
+  CHECK(hood["share_of_dust"].get<double>() > 0.0);
+  CHECK(hood["share_of_dust"].get<double>() < 1.5);  // some of what hung in the air before
 }

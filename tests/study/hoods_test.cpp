@@ -55,11 +55,12 @@ TEST_CASE("a run shall give a study of hoods, and the study what each hood captu
   CHECK(holds(text, "start_from: wake"));
   CHECK(holds(text, "sensors.exit.steady_after: 0.48 s"));
   CHECK(holds(text, "place_1_at_6_l_min:"));
-  const std::string often = folder / "often.yaml";
+  const std::string often = folder / "more often.yaml";
   const auto repeated =
       engine({"suggest-hoods", folder / "wake", "--flows", "6, 30 l/min", "--places", "1",
               "--duration", "0.24 s", "--replicates", "3", "-o", often});
   CHECK(holds(repeated.out, "9 points of 0.24 s"));
+  CHECK(holds(repeated.out, "more often.yaml' -o "));  // as a shell wants it
   const auto plan = engine({"study", often, "--dry-run"});
   INFO(plan.err);
   CHECK(plan.status == 0);

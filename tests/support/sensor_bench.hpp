@@ -14,6 +14,7 @@
 /// show to every sensor.
 namespace dust::test {
 
+using contract::begin;
 using contract::Contact;
 using contract::Figure;
 using contract::Figures;

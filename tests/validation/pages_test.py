@@ -23,7 +23,7 @@ import runs
 import stale
 import study_points
 from cases import beverloo, dosta_drum
-from thesis.row import Row, Sign
+from thesis.row import Row, Sign, difference
 
 
 def finished_run(folder, name, sensors, note=None):
@@ -258,6 +258,13 @@ class ThesisRows(unittest.TestCase):
     def test_the_page_of_the_thesis_counts_the_undecided(self):
         rows = [Sign("t", "w", (), effects.Change(1.0, error)) for error in (0.1, 0.6, 0.7)]
         self.assertEqual({"as good": 1, "undecided": 2}, {kind: n for kind, n in cases.load("thesis").counts_of(rows).items() if n})
+
+    def test_errors_of_a_difference_add_in_squares_and_where_one_is_unknown_so_is_the_other(self):
+        known = difference((33.6, 0.003), (44.4, 0.004))
+        self.assertAlmostEqual(known.size, 10.8)
+        self.assertAlmostEqual(known.error, 0.005)
+        self.assertIsNone(difference((33.6, 0.17), (44.4, None)).error)
+        self.assertIsNone(difference((33.6, None), (44.4, 0.17)).error)
 
 
 class Pages(unittest.TestCase):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "commands.hpp"
 #include "io/atomic_file.hpp"
 #include "reserved_names.hpp"
@@ -114,12 +115,12 @@ void make_plugin(const std::string& kind, const std::string& name, const fs::pat
   const auto files = copy_template(templates / kind, folder, "my_" + kind, name);
   std::cout << "wrote " << folder.string() << ":";
   for (const std::string& file : files) std::cout << ' ' << file;
-  const std::string build = (folder / "build").string();
-  std::cout << "\nnext:\n  cmake -S " << folder.string() << " -B " << build
-            << " -DCMAKE_PREFIX_PATH="
-            << templates.parent_path().parent_path().parent_path().string() << "\n  cmake --build "
-            << build << " && ctest --test-dir " << build << "\n  engine describe " << kind << '/'
-            << name << " --plugin-path " << build << '\n';
+  const std::string build = base::shell_word((folder / "build").string());
+  const std::string prefix = templates.parent_path().parent_path().parent_path().string();
+  std::cout << "\nnext:\n  cmake -S " << base::shell_word(folder.string()) << " -B " << build << ' '
+            << base::shell_word("-DCMAKE_PREFIX_PATH=" + prefix) << "\n  cmake --build " << build
+            << " && ctest --test-dir " << build << "\n  engine describe " << kind << '/' << name
+            << " --plugin-path " << build << '\n';
 }
 
 }  // namespace

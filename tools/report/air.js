@@ -191,7 +191,7 @@ Dust.air = (() => {
       const v = velocity(x, z);
       return v ? [v[0], 0, v[1]] : null;
     };
-    return {pixels: rgba, width: set.nx, height: set.nz, velocity: velocity_at};
+    return {pixels: rgba, width: set.nx, height: set.nz, step: [set.dx, set.dz], velocity: velocity_at};
   };
   return {times: set.frames.map((frame) => frame.t), show, load, paint_speed, paint_pressure, pressure_of, grid, pixels};
 })();

@@ -7,10 +7,11 @@ Dust.clock = (times, show, first = times.length - 1) => {
   const button = Dust.el('button', {type: 'button'}, 'Play');
   const slider = Dust.el('input', {type: 'range', min: 0, max: times.length - 1, step: 1, 'aria-label': 'Time'});
   const reading = Dust.el('output', {});
+  const decimals = Dust.decimals_of(times);
   const go = (index) => {
     slider.value = index;
-    slider.setAttribute('aria-valuetext', times[index].toFixed(3) + ' s');
-    reading.textContent = 't = ' + times[index].toFixed(3) + ' s';
+    slider.setAttribute('aria-valuetext', times[index].toFixed(decimals) + ' s');
+    reading.textContent = 't = ' + times[index].toFixed(decimals) + ' s';
     return show(index);
   };
   const stop = () => {

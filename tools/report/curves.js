@@ -89,7 +89,7 @@
         y: order.map((k) => (Number.isFinite(c.y[k]) ? c.y[k] / sy.factor : null))};
     });
     let note = '';
-    if (is_time && sy.unit.endsWith('/s') && lines[0].x.length > 3 * k_points) {
+    if (is_time && y_label.unit.endsWith('/s') && lines[0].x.length > 3 * k_points) {
       const before = lines[0].x;
       const width = (before.at(-1) - before[0]) / (before.length - 1) * Math.ceil(before.length / k_points);
       lines = lines.map((line) => (line.kind === 'reference' ? line : in_blocks(line)));

@@ -11,7 +11,8 @@ Dust.sections.stream = ({stream}) => {
 
 Dust.sections.references = ({references}) => {
   const rows = references.map((r) => [Dust.words(String(r.quantity).replace(/^sensors\./, '').replace('.', ' / ')), Dust.quantity(r.ours, r.our_uncertainty, r.unit), Dust.quantity(r.value, r.uncertainty, r.unit),
-    r.difference_share === null ? Dust.dash : Dust.number(100 * r.difference_share, 2) + '\u202f%', r.in_errors === null ? Dust.dash : Dust.number(r.in_errors, 2), r.source || '']);
+    r.difference_share === null ? Dust.dash : Dust.number(100 * r.difference_share, 2) + '\u202f%', r.in_errors === null ? Dust.dash : Dust.number(r.in_errors, 2),
+    [r.source, r.problem && 'not compared: ' + r.problem].filter(Boolean).join('; ')]);
   const table = Dust.table([{title: 'Quantity'}, {title: 'This run', number: true}, {title: 'Published', number: true}, {title: 'Difference', number: true}, {title: 'In standard errors', number: true},
     {title: 'Source'}], rows, {label: 'Beside published numbers'});
   return table && Dust.section('references', 'Beside published numbers', table);

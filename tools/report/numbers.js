@@ -32,10 +32,17 @@ const Numbers = (() => {
     const fixed = (v, decimals) => (decimals < 0 ? whole(v) : signed(v.toFixed(Math.min(decimals, 8))));
     if (size >= 1e6 || size < 1e-3) {
       const exponent = Math.floor(Math.log10(size)), unit = 10 ** exponent;
+      if (exponent - place > 8) return number(mean, 9) + plus_minus + number(error, 2);  // an error of rounding
       return `(${fixed(mean / unit, exponent - place)}${plus_minus}${fixed(error / unit, exponent - place)})${thin}×${thin}10${raised(exponent)}`;
     }
     if (place < -8) return number(mean, 9) + plus_minus + number(error, 2);  // an error of rounding
     return fixed(mean, -place) + plus_minus + fixed(error, -place);
+  };
+
+  // So many digits behind the point that ascending times differ; three at least.
+  const decimals_of = (times) => {
+    const steps = times.slice(1).map((t, k) => t - times[k]).filter((step) => step > 0);
+    return steps.length ? Math.min(12, Math.max(3, Math.ceil(-Math.log10(Math.min(...steps)) - 1e-9))) : 3;
   };
 
   // From this extent [m] on a domain is a plant's: places in m, flows in t/h.
@@ -102,6 +109,6 @@ const Numbers = (() => {
   const words = (name) => String(name).replace(/_/g, ' ').replace(/ um(?=$|\W)/g, ' µm').replace(/(\w)\/([a-z]{3,})/g, '$1 / $2');  // m/s stays
   const sentence = (name) => words(name).replace(/^./, (c) => c.toUpperCase());
   const plural = (n, one, many = one + 's') => `${count(n)} ${n === 1 ? one : many}`;
-  return {is_geometric, set_extent, place_unit, number, count, value, quantity, scale, raise, is_bare, duration, percent, width, words, sentence, plural, thin, dash};
+  return {is_geometric, decimals_of, set_extent, place_unit, number, count, value, quantity, scale, raise, is_bare, duration, percent, width, words, sentence, plural, thin, dash};
 })();
 if (typeof module !== 'undefined') module.exports = Numbers;

@@ -88,7 +88,7 @@ Dust.space_dust = (() => {
         pixels.set([...Dust.dust_colour(share), 215], 4 * (j * width + i));
       }
     }
-    return {pixels, width, height};
+    return {pixels, width, height, step: [step[u], step[v]]};
   };
   // A strip with a label per decade [mg/m3].
   const legend = (parent, title, colour_of, most) => {

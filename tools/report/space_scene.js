@@ -304,6 +304,8 @@ Dust.space = (() => {
     if (slice.material.map) slice.material.map.dispose();
     const texture = new T.DataTexture(look.pixels, look.width, look.height);
     texture.magFilter = texture.minFilter = T.LinearFilter;
+    // The last blocks of a row reach beyond the plane where blocks do not divide the cells.
+    texture.repeat.set(size[u] / (look.width * look.step[0]), size[v] / (look.height * look.step[1]));
     texture.needsUpdate = true;
     slice.material.map = texture;
     // What lies behind the plane shines through where nothing is cut away.
@@ -327,7 +329,7 @@ Dust.space = (() => {
         pixels[to + 3] = 215;
       }
     }
-    return {pixels, width, height, velocity};
+    return {pixels, width, height, step: [step[u], step[v]], velocity};
   };
   // Short threads along the air within the plane, as in the maps.
   const fill_threads = (velocity, {axis, u, v, at}) => {

@@ -1,10 +1,10 @@
 'use strict';
-// The path of the stream: how far forward against the drop, true to scale: the figures whose role is stream_quantile.
-// Curves of their sensors are the same again; of those that the scenario names beside them x is forward and y the height
+// The path of the stream: how far forward against the drop, true to scale: the figures whose role is stream_quantile, of
+// one sensor. Its curves are the same again; of those that the scenario names beside them x is forward and y the height
 // over the start.
 (() => {
   const section = document.getElementById('stream');
-  const of_stream = new Set(Object.entries(Dust.data.summary.sensors || {}).filter(([, figures]) => Object.values(figures || {}).some((f) => f && f.role === 'stream_quantile')).map(([sensor]) => sensor));
+  const of_stream = new Set(Dust.data.stream.map((d) => d.sensor));
   Dust.is_stream = (sensor) => of_stream.has(sensor);
   const percent = (probability) => Dust.number(100 * probability, 3) + '\u202f%';
   const looks = (probability) => (probability === 0.5 ? {colour: 'ink', width: 2.2} : {colour: 'tone2', width: 1.4});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/survey/gap.hpp"
 
+#include "bodies/survey/bounds.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,31 +19,6 @@ constexpr double k_finest = 1.0 / 8.0;    ///< of the limit: triangles below are
 constexpr double k_touching = 1e-6;       ///< of the limit: nearer is no gap
 constexpr std::size_t k_candidates = 16;  ///< places from which closest points are looked for
 constexpr int k_projections = 40;
-
-struct Bounds {
-  Vec3 low{k_far, k_far, k_far};
-  Vec3 high{-k_far, -k_far, -k_far};
-  static constexpr double k_far = std::numeric_limits<double>::infinity();
-
-  explicit Bounds(const Triangles& corners) {
-    for (const Vec3& p : corners) {
-      for (int d = 0; d < 3; ++d) {
-        low[d] = std::min(low[d], p[d]);
-        high[d] = std::max(high[d], p[d]);
-      }
-    }
-  }
-};
-
-/// [m] Between two boxes.
-double apart(Vec3 low_a, Vec3 high_a, Vec3 low_b, Vec3 high_b) {
-  double sum = 0.0;
-  for (int d = 0; d < 3; ++d) {
-    const double off = std::max({low_a[d] - high_b[d], low_b[d] - high_a[d], 0.0});
-    sum += off * off;
-  }
-  return std::sqrt(sum);
-}
 
 /// A triangle of the first body's surface.
 struct Piece {
@@ -65,9 +42,8 @@ class Search {
     // Finer than what a person can see of a curve, coarse enough for long conveyors.
     const double edge = std::max(search_.limit, norm(search_.max - search_.min) / 100.0);
     const Triangles of_a = a_.triangles(search_.min, search_.max, edge, at_a_);
-    const Bounds box_a(of_a);
-    const Bounds box_b(b_.triangles(search_.min, search_.max, edge, at_b_));
-    if (apart(box_a.low, box_a.high, box_b.low, box_b.high) > search_.limit + edge) return gap_;
+    const Bounds of_b = bounds_of(b_, at_b_, search_.min, search_.max, 0.0, edge);
+    if (distance(bounds_of(of_a), of_b) > search_.limit + edge) return gap_;
     for (std::size_t n = 0; n + 2 < of_a.size() && !is_done(); n += 3) {
       look_at({{of_a[n], of_a[n + 1], of_a[n + 2]}});
     }
@@ -87,6 +63,11 @@ class Search {
   [[nodiscard]] double bound() const { return std::min(gap_.width, search_.limit); }
   [[nodiscard]] bool is_done() const { return gap_.width == 0.0 || work_ >= search_.work; }
 
+  /// [m] From a point to the box that is looked through.
+  [[nodiscard]] double outside(Vec3 point) const {
+    return distance(Bounds{point, point}, Bounds{search_.min, search_.max});
+  }
+
   /// [m] From a point of the first surface to the second body. Sheets are told by their middle
   /// surface, curved faces by chords: as deep as the point lies in the first body it is nearer.
   double width_at(Vec3 point) {
@@ -97,7 +78,7 @@ class Search {
   void look_at(Piece piece) {
     const Vec3 middle = piece.middle();
     for (const Vec3& c : piece.corner) piece.radius = std::max(piece.radius, norm(c - middle));
-    const double beyond = apart(middle, middle, search_.min, search_.max);
+    const double beyond = outside(middle);
     if (beyond > piece.radius) return;
     const double width = width_at(middle);
     piece.least = width - piece.radius;
@@ -150,7 +131,7 @@ class Search {
         const SurfacePoint to_a = a_.nearest(on_b, at_a_);
         on_a = on_b - to_a.distance * to_a.normal;
         work_ += 2;
-        if (apart(on_b, on_b, search_.min, search_.max) > 0.0) break;
+        if (outside(on_b) > 0.0) break;
         if (to_a.distance < gap_.width) {
           gap_.width = to_a.distance > k_touching * search_.limit ? to_a.distance : 0.0;
           gap_.place = on_b;

@@ -44,6 +44,13 @@ void set_cells(SyntheticScene& scene, int nx, int ny, int nz) {
   scene.void_fraction.assign(cells, 1.0f);
 }
 
+void begin(sdk::Sensor& sensor, const SyntheticScene& scene) {
+  const SceneColumns columns(scene, sensor.wants_face_fluxes());
+  sdk::WorldView world = columns.view();
+  world.interval = 0.0;
+  sensor.begin(world);
+}
+
 void step(sdk::Sensor& sensor, SyntheticScene& scene) {
   scene.time += scene.interval;
   SceneColumns columns(scene, sensor.wants_face_fluxes());

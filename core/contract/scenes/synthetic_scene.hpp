@@ -92,6 +92,8 @@ void for_cells(const SyntheticScene& scene, const Set& set) {
   }
 }
 
+/// Shows the scene to `sensor` as the world in which it begins; see sdk::Sensor::begin.
+void begin(sdk::Sensor& sensor, const SyntheticScene& scene);
 /// Advances the scene's time by its interval and shows it to `sensor` as the next sample.
 void step(sdk::Sensor& sensor, SyntheticScene& scene);
 

@@ -38,7 +38,8 @@ DragLinearisation::DragLinearisation(const Lattice& lattice, const sdk::VoidageR
 /// Part of the coefficient that the fluid is given. A free particle relaxes within the step: mean
 /// drag by docs/theory/coupling.md, eq. (13), (14), `relaxations` = K step / m.
 double DragLinearisation::implicit_factor(double relaxations) const {
-  const double mean = -std::expm1(-relaxations) / relaxations;
+  // A law of beds may end at 0 for a grain that is alone and at rest in the fluid.
+  const double mean = relaxations > 0.0 ? -std::expm1(-relaxations) / relaxations : 1.0;
   return order_ == Order::overlapped ? k_overlapped_implicit : std::max(mean, k_min_implicit);
 }
 

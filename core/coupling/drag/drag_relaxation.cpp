@@ -18,6 +18,13 @@ double relative_slip(const SampledFlow& flow, const DragLookAhead& ahead, std::s
   return flow.ratio[d][q] * (flow.slip[d][q] - change) + change;
 }
 
+/// A law of beds may end at 0 for a grain that is alone and at rest in the fluid: it takes a
+/// millionth of its slip in the interval, so that what else acts has a target.
+double drag_above_zero(double drag, double mass, double held) {
+  constexpr double k_share = 1e-6;
+  return drag > 0.0 ? drag : k_share * mass / held;
+}
+
 sdk::VectorColumns columns_of(const std::array<StencilBatch::Reals, 3>& v) {
   return {v[0].data(), v[1].data(), v[2].data()};
 }
@@ -103,13 +110,13 @@ void DragRelaxation::update(const particles::GrainRows& grains, Rows rows, const
   if (forces_ != nullptr) {
     relax_by_forces(grains, rows, fluid, flow, held, ahead, columns);
   } else {
-    relax_by_drag(grains, rows, flow, ahead, columns);
+    relax_by_drag(grains, rows, flow, held, ahead, columns);
   }
 }
 
 /// Drag and the stress on the particle's volume.
 void DragRelaxation::relax_by_drag(const particles::GrainRows& grains, Rows rows,
-                                   const SampledFlow& flow, const DragLookAhead& ahead,
+                                   const SampledFlow& flow, double held, const DragLookAhead& ahead,
                                    const DragColumns& columns) {
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
@@ -118,7 +125,8 @@ void DragRelaxation::relax_by_drag(const particles::GrainRows& grains, Rows rows
     double* action = grains.drag_relaxation + 4 * row;
     ParticleState& r = states_[row];
     const DragModel::Fluid fluid = drag_.fluid_at(grains.position + 4 * row);
-    const double drag = drag_coefficient(grains, row, columns, q);
+    const double drag =
+        drag_above_zero(drag_coefficient(grains, row, columns, q), 1.0 / v[3], held);
     const double per_drag = 1.0 / drag;
     const double volume = sdk::sphere_volume(diameter);
     // The particles' reduced gravity is that of the fluid's own density.
@@ -142,7 +150,8 @@ void DragRelaxation::relax_by_forces(const particles::GrainRows& grains, Rows ro
   forces_->evaluate(grains, terms, fluid, held, states_, sums);
   for (std::size_t q = 0; q < rows.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows[q]);
-    const double drag = drag_coefficient(grains, row, columns, q);
+    const double mass = 1.0 / grains.velocity_of(row)[3];
+    const double drag = drag_above_zero(drag_coefficient(grains, row, columns, q), mass, held);
     Triple relative;
     for (std::size_t d = 0; d < 3; ++d) relative[d] = relative_slip(flow, ahead, d, q);
     act(grains, row, q, drag, relative, held, sums);

@@ -41,7 +41,7 @@ class DragRelaxation {
   void look_ahead(const particles::GrainRows& grains, Rows rows, double held, double last_held,
                   const SampledFlow& flow, DragColumns& columns, DragLookAhead& ahead);
   void relax_by_drag(const particles::GrainRows& grains, Rows rows, const SampledFlow& flow,
-                     const DragLookAhead& ahead, const DragColumns& columns);
+                     double held, const DragLookAhead& ahead, const DragColumns& columns);
   void relax_by_forces(const particles::GrainRows& grains, Rows rows, const FluidState& fluid,
                        const SampledFlow& flow, double held, const DragLookAhead& ahead,
                        const DragColumns& columns);

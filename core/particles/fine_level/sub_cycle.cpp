@@ -8,6 +8,7 @@
 #include "particles/work/dissipation.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 namespace dust::particles {
 namespace {
@@ -57,9 +58,10 @@ class SubCycle {
   void evaluate();
   bool load_pair(const CandidateContact& c);
   bool load_surface(const CandidateContact& c);
-  [[nodiscard]] bool reaches(const CandidateContact& c);
-  void take_over(const CandidateContact& c);
-  [[nodiscard]] bool is_passed_on(const CandidateContact& c);
+  [[nodiscard]] SurfaceContact surface_contact(const CandidateContact& c) const {
+    return {static_cast<std::size_t>(c.entry), &scene_.surface(c.surface)};
+  }
+  [[nodiscard]] bool is_handed_over(const CandidateContact& c);
   void flush(const CandidateContact& open);
   void derive_pairs();
   void derive_walls(const Surface& surface);
@@ -92,10 +94,9 @@ void SubCycle::evaluate() {
     const bool is_touching = c.surface >= 0 ? load_surface(c) : load_pair(c);
     std::uint8_t& touching = scene_.contacts.is_touching[c.entry];
     if (is_touching) {
-      if (touching == 0 && c.surface >= 0) take_over(c);
-      is_new_[count_] = touching == 0;
+      is_new_[count_] = touching == 0 && !is_handed_over(c);
       in_batch_[count_++] = &c;
-    } else if (touching != 0 && !is_passed_on(c)) {
+    } else if (touching != 0 && !is_handed_over(c)) {
       std::fill_n(history(c), scene_.contacts.history_stride, 0.0);
     }
     touching = static_cast<std::uint8_t>(is_touching ? 1 + block_.level : 0);
@@ -103,39 +104,19 @@ void SubCycle::evaluate() {
   if (open != nullptr) flush(*open);
 }
 
-bool SubCycle::reaches(const CandidateContact& c) {
+/// With another surface that the same particle may touch.
+bool SubCycle::is_handed_over(const CandidateContact& c) {
+  if (c.surface < 0) return false;
+  auto others =
+      block_.candidates | std::views::filter([&](const CandidateContact& e) {
+        return e.particle == c.particle && e.surface >= 0;
+      }) |
+      std::views::transform([&](const CandidateContact& e) { return surface_contact(e); });
   const SubCycledParticle& i = particle(c);
   const double reach = i.radius + scene_.law(c.law).range;
-  return scene_.surface(c.surface).contact_at(time_, i.position, reach).distance < reach;
-}
-
-/// A contact with a surface that begins goes on with that of a flush body which has just ended.
-void SubCycle::take_over(const CandidateContact& c) {
-  const Surface& surface = scene_.surface(c.surface);
-  if (surface.abutting == nullptr) return;
-  for (const CandidateContact& e : block_.candidates) {
-    if (e.particle != c.particle || e.surface < 0) continue;
-    if (scene_.contacts.is_touching[e.entry] == 0) continue;
-    if (!may_hand_over(scene_.surface(e.surface), surface) || reaches(e)) continue;
-    hand_over(scene_.contacts, static_cast<std::size_t>(e.entry),
-              static_cast<std::size_t>(c.entry));
-    return;
-  }
-}
-
-/// Whether one that has ended goes on with a flush body, which has not been looked at yet.
-bool SubCycle::is_passed_on(const CandidateContact& c) {
-  if (c.surface < 0 || scene_.surface(c.surface).abutting == nullptr) return false;
-  for (const CandidateContact& e : block_.candidates) {
-    if (e.particle != c.particle || e.surface < 0) continue;
-    if (scene_.contacts.is_touching[e.entry] != 0) continue;
-    if (!may_hand_over(scene_.surface(c.surface), scene_.surface(e.surface))) continue;
-    if (!reaches(e)) continue;
-    hand_over(scene_.contacts, static_cast<std::size_t>(c.entry),
-              static_cast<std::size_t>(e.entry));
-    return true;
-  }
-  return false;
+  return join_handover(scene_.contacts, surface_contact(c), others, [&](const Surface& other) {
+    return other.contact_at(time_, i.position, reach).distance < reach;
+  });
 }
 
 bool SubCycle::load_pair(const CandidateContact& c) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 /// Contacts of a tile's particles with surfaces.
 namespace dust::particles {
@@ -94,8 +95,7 @@ struct ContactForces::WallBatch {
   void add(std::int32_t q, double overlap, const bodies::SurfacePoint& near) {
     const auto u = static_cast<std::size_t>(q);
     const std::int32_t row = list.a[u];
-    if (list.is_touching[u] == 0 && surface.abutting != nullptr) take_over(u);
-    is_new[count] = list.is_touching[u] == 0;
+    is_new[count] = list.is_touching[u] == 0 && !is_handed_over(u);
     list.is_touching[u] = 1;
     contacts[count] = q;
     rows[count] = row;
@@ -112,8 +112,7 @@ struct ContactForces::WallBatch {
     if (++count == k_batch) evaluate();
   }
   [[nodiscard]] bool reaches(const Surface& other, std::int32_t row) const;
-  void take_over(std::size_t entry) const;
-  [[nodiscard]] bool is_passed_on(std::size_t entry) const;
+  [[nodiscard]] bool is_handed_over(std::size_t entry) const;
   void record_work();
   void record_separated(std::size_t entry);
   void evaluate() {
@@ -150,29 +149,16 @@ bool ContactForces::WallBatch::reaches(const Surface& other, std::int32_t row) c
   return other.contact({p[0], p[1], p[2]}, reach).distance < reach;
 }
 
-/// A contact that begins goes on with that of a flush body which has just ended.
-void ContactForces::WallBatch::take_over(std::size_t entry) const {
+/// With another surface that the same grain may touch.
+bool ContactForces::WallBatch::is_handed_over(std::size_t entry) const {
   const std::int32_t row = list.a[entry];
-  for (std::size_t e = 0; e < list.count; ++e) {
-    if (list.a[e] != row || list.is_touching[e] == 0) continue;
-    const Surface& other = scene.surfaces[static_cast<std::size_t>(list.b[e])];
-    if (!may_hand_over(other, surface) || reaches(other, row)) continue;
-    hand_over(list, e, entry);
-    return;
-  }
-}
-
-/// Whether one that has ended goes on with a flush body, which has not been looked at yet.
-bool ContactForces::WallBatch::is_passed_on(std::size_t entry) const {
-  const std::int32_t row = list.a[entry];
-  for (std::size_t e = 0; surface.abutting != nullptr && e < list.count; ++e) {
-    if (list.a[e] != row || list.is_touching[e] != 0) continue;
-    const Surface& other = scene.surfaces[static_cast<std::size_t>(list.b[e])];
-    if (!may_hand_over(surface, other) || !reaches(other, row)) continue;
-    hand_over(list, entry, e);
-    return true;
-  }
-  return false;
+  auto others = std::views::iota(std::size_t{0}, list.count) |
+                std::views::filter([&](std::size_t e) { return list.a[e] == row; }) |
+                std::views::transform([&](std::size_t e) {
+                  return SurfaceContact{e, &scene.surfaces[static_cast<std::size_t>(list.b[e])]};
+                });
+  return join_handover(list, {entry, &surface}, others,
+                       [&](const Surface& other) { return reaches(other, row); });
 }
 
 /// The energy account of the batch.
@@ -231,7 +217,7 @@ void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& c
       const double overlap = radius - near.distance[n];
       if (overlap > -law.range) {
         batch.add(q, overlap, near.point(n));
-      } else if (list.is_touching[u] != 0 && !batch.is_passed_on(u)) {
+      } else if (list.is_touching[u] != 0 && !batch.is_handed_over(u)) {
         if (tile.energy != nullptr) batch.record_separated(u);
         list.is_touching[u] = 0;
         std::fill_n(list.history + u * list.history_stride, list.history_stride, 0.0);

@@ -13,7 +13,7 @@
 namespace dust::preflight {
 namespace {
 
-bool is_drawn_elsewhere(const bodies::Body& body) { return !body.shape->notes().empty(); }
+bool is_mesh(const scenario::BodySpec& body) { return body.shape.name == "mesh"; }
 
 /// [m] Edges of the box round a mesh, in its own frame.
 sdk::Vec3 extent_of_mesh(const bodies::Shape& mesh) {
@@ -58,7 +58,7 @@ void check_body_places(const scenario::Setup& setup, const ParticleModels& model
             base::length_text(distance) +
             " from the domain's middle: nothing "
             "meets it; " +
-            (is_drawn_elsewhere(body) ? "is the unit of its file right (unit: 1 mm)?"
+            (is_mesh(setup.bodies[n]) ? "is the unit of its file right (unit: 1 mm)?"
                                       : "are its place and size right?"));
   }
 }
@@ -74,7 +74,7 @@ void check_mesh_sizes(const scenario::Setup& setup, const ParticleModels& models
   }
   for (std::size_t n = 0; n < models.bodies.size(); ++n) {
     const bodies::Body& body = models.bodies[n];
-    if (!is_drawn_elsewhere(body)) continue;
+    if (!is_mesh(setup.bodies[n])) continue;
     const sdk::Vec3 extent = extent_of_mesh(*body.shape);
     const std::string larger =
         what_is_larger(std::max({extent.x, extent.y, extent.z}), grain, cell);

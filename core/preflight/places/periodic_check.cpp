@@ -2,10 +2,10 @@
 #include "preflight/places/periodic_check.hpp"
 
 #include "base/text.hpp"
+#include "bodies/survey/bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -21,9 +21,9 @@ bool is_periodic(const scenario::Setup& setup, int d) {
          scenario::GrainSide::periodic;
 }
 
+/// [m] Of a body along one direction.
 struct Extent {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
+  double low = 0.0, high = 0.0;
 };
 
 /// A body at an instant of the run, and the grains that meet it.
@@ -38,13 +38,8 @@ struct Scene {
 Extent extent_of(const Scene& scene, int d) {
   const auto& [domain, body, place, smallest, largest] = scene;
   const double far = 2.0 * (norm(domain.max - domain.min) + largest);
-  const Vec3 more{far, far, far};
-  Extent extent;
-  for (const Vec3& p : body.triangles(domain.min - more, domain.max + more, far, place)) {
-    extent.low = std::min(extent.low, p[d]);
-    extent.high = std::max(extent.high, p[d]);
-  }
-  return extent;
+  const bodies::Bounds box = bodies::bounds_of(body, place, domain.min, domain.max, far, far);
+  return {box.low[d], box.high[d]};
 }
 
 /// Grains are put back once they are found a radius beyond a periodic side: a body has to be there

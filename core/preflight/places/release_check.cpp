@@ -63,10 +63,19 @@ void look_at_sides(const scenario::Setup& setup, const scenario::DustSetup& dust
   }
 }
 
-void look_at_bodies(const bodies::BodySet& bodies, Vec3 place, double radius, double time,
-                    Misplaced& stuck) {
-  for (const bodies::Body& body : bodies) {
-    if (body.suction) continue;
+/// Whether a body is or may be gone: of one that goes when the grains rest nobody knows when.
+bool may_be_gone(const scenario::BodySpec& body, double time, double fluid_step) {
+  if (!body.removal) return false;
+  const double rounding = 1e-6 * fluid_step;
+  const bool is_by_energy = body.removal->kinetic_energy_per_grain > 0.0;
+  return time >= body.removal->at - rounding || (is_by_energy && time >= body.removal->after);
+}
+
+void look_at_bodies(const scenario::Setup& setup, const bodies::BodySet& bodies, Vec3 place,
+                    double radius, double time, Misplaced& stuck) {
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    const bodies::Body& body = bodies[n];
+    if (body.suction || may_be_gone(setup.bodies[n], time, setup.time.fluid_step)) continue;
     if (body.nearest(place, body.placement(time)).distance < (1.0 - k_deep) * radius) {
       stuck.note("'" + body.name + "'", place);
       return;
@@ -173,7 +182,7 @@ void check_release(const scenario::Setup& setup, const scenario::DustSetup& dust
       const std::size_t before = stuck.count + outside.count;
       look_at_sides(setup, dust, place, radius, outside, stuck);
       if (stuck.count + outside.count > before) continue;
-      look_at_bodies(models.bodies, place, radius, grain.time, stuck);
+      look_at_bodies(setup, models.bodies, place, radius, grain.time, stuck);
     }
     report(setup.emitters[n], outside, stuck, all, diagnostics);
     if (stuck.count + outside.count == 0) {

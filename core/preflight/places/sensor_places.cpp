@@ -25,6 +25,7 @@ class Places {
          const scenario::SensorSpec& spec, const std::vector<sdk::Parameter>& parameters)
       : domain_(setup.domain),
         bodies_(bodies),
+        specs_(setup.bodies),
         gravity_(setup.gravity),
         spec_(spec),
         parameters_(parameters),
@@ -118,8 +119,10 @@ class Places {
   }
   /// What is asked at points is of the air.
   void check_air(Vec3 place, scenario::Diagnostics& diagnostics) const {
-    for (const bodies::Body& body : bodies_) {
-      if (body.displaces() || body.nearest(place).distance >= -slack_) continue;
+    for (std::size_t n = 0; n < bodies_.size(); ++n) {
+      const bodies::Body& body = bodies_[n];
+      if (specs_[n].removal || body.displaces()) continue;
+      if (body.nearest(place).distance >= -slack_) continue;
       diagnostics.warning(spec_.model.where, path("points") + ": " + base::place_text(place) +
                                                  " lies in the body '" + body.name +
                                                  "', where there is no air: what is told of it is "
@@ -136,6 +139,7 @@ class Places {
 
   const scenario::DomainSpec& domain_;
   const bodies::BodySet& bodies_;
+  const std::vector<scenario::BodySpec>& specs_;
   Vec3 gravity_;
   const scenario::SensorSpec& spec_;
   const std::vector<sdk::Parameter>& parameters_;

@@ -154,7 +154,8 @@ json stream_json(const Highlights& highlights) {
     return {{"value", figure.value}, {"error", figure.uncertainty}};
   };
   for (const StreamDrop& drop : highlights.stream) {
-    list.push_back({{"drop", drop.drop},
+    list.push_back({{"sensor", drop.median.sensor},
+                    {"drop", drop.drop},
                     {"low", part(drop.low)},
                     {"median", part(drop.median)},
                     {"high", part(drop.high)}});

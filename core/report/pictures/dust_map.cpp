@@ -40,7 +40,7 @@ DustMap dust_map_of(const H5Source& source, const View& view, const DustSizes& d
     const auto weight = source.floats(path + "/weight");
     for (std::size_t k = 0; 3 * k + 2 < position.size() && k < diameter.size(); ++k) {
       if (!dust.is_dust(diameter[k])) continue;
-      const double x = position[3 * k], z = position[3 * k + 2];
+      const double x = position[3 * k], y = position[3 * k + 1], z = position[3 * k + 2];
       if (!(x >= view.min_x && x <= view.max_x && z >= view.min_z && z <= view.max_z)) continue;
       // Shares need no density as long as dust is of one material.
       const double mass = (k < weight.size() ? weight[k] : 1.0) * std::pow(diameter[k], 3);
@@ -49,7 +49,8 @@ DustMap dust_map_of(const H5Source& source, const View& view, const DustSizes& d
       const auto row = std::min(map.nz - 1, static_cast<std::size_t>((z - view.min_z) / map.cell));
       map.share[row * map.nx + column] += mass;
       for (DustPlace& place : places) {
-        if (std::hypot(x - place.x, z - place.z) <= place.reach) place.share += mass;
+        const double depth = place.y ? y - *place.y : 0.0;
+        if (std::hypot(x - place.x, depth, z - place.z) <= place.reach) place.share += mass;
       }
       all += mass;
     }

@@ -20,7 +20,7 @@ constexpr std::size_t k_coarse_per_frame = 20000;  ///< more cannot be told apar
 constexpr std::size_t k_dust_per_frame = 8000;
 constexpr std::size_t k_grains_per_page = 1000000;  ///< 6 bytes each before compression
 constexpr std::size_t k_grain_frames = 150;
-constexpr std::size_t k_classes = 24;
+constexpr std::size_t k_classes = 256;  ///< a byte of each grain tells which
 
 /// A number in [0, 1) that belongs to the grain: the same in every frame (splitmix64).
 double share_of(std::int64_t id) {
@@ -30,8 +30,8 @@ double share_of(std::int64_t id) {
   return static_cast<double>((bits ^ (bits >> 31)) >> 11) * 0x1p-53;
 }
 
-/// Size classes of the legend, ascending: those of the run, or else the diameters met; with more
-/// than 24 of them, 24 geometric steps.
+/// Size classes of the grains, ascending: those of the run, or else the diameters met; with more
+/// than k_classes of them, so many geometric steps.
 std::vector<double> legend_of(const json& given, const std::vector<std::vector<float>>& diameters) {
   std::vector<double> classes;
   for (const json& d : given) {

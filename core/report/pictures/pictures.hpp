@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,9 +60,10 @@ struct Box {
 /// 8 bits and packed; null for runs without fluid.
 [[nodiscard]] nlohmann::json air_of(const H5Source& source);
 
-/// A place that asks for the dust within `reach` of it in the x-z plane.
+/// A place that asks for the dust within `reach` of it.
 struct DustPlace {
   double x = 0.0, z = 0.0, reach = 0.0;  ///< [m]
+  std::optional<double> y;               ///< [m] none: at any depth
   double share = 0.0;                    ///< answer: of the mass of all dust in the view
 };
 

@@ -2,6 +2,7 @@
 #include "run/branch/branch.hpp"
 
 #include "base/error.hpp"
+#include "base/named.hpp"
 #include "base/text.hpp"
 #include "run/branch/dust_places.hpp"
 #include "run/dust/hoods.hpp"
@@ -40,12 +41,6 @@ std::string grains_text(std::int64_t count) {
 }
 
 bool is_at(const auto& a, const auto& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-
-const auto* find_named(const auto& things, const std::string& name) {
-  const auto at = std::find_if(things.begin(), things.end(),
-                               [&](const auto& thing) { return thing.name == name; });
-  return at == things.end() ? nullptr : &*at;
-}
 
 std::pair<std::string, std::string> ordered(const std::string& a, const std::string& b) {
   return {std::min(a, b), std::max(a, b)};
@@ -220,8 +215,24 @@ particles::Dem& Branch::their_particles() {
   return *their_particles_;
 }
 
+/// Emitters that the other run did not have, whose grains would all have come before.
+void Branch::check_emitters(const Models& models) {
+  for (std::size_t n = 0; n < models.emitters.size(); ++n) {
+    const scenario::EmitterSpec& spec = now_.setup.emitters[n];
+    if (base::find_named(origin_.scenario().setup.emitters, spec.name) != nullptr) continue;
+    const sdk::EmitterRequest request = models.emitters[n]->request();
+    const bool comes_at_once = request.mass > 0.0 || request.count > 0;
+    if (!comes_at_once || request.begin >= origin_.time() * (1.0 - 1e-9)) continue;
+    diagnostics_.error(spec.model.where,
+                       spec.model.path + ": its grains come at " + seconds(request.begin) +
+                           ", before this run begins at " + seconds(origin_.time()) +
+                           ": give it a 'time' from then on");
+  }
+}
+
 void Branch::check(Models& models, particles::Dem& particles) {
   if (is_same_ || diagnostics_.has_errors()) return;
+  check_emitters(models);
   transfer_bodies(models);
   report_obstacles(particles.obstacles_to(their_particles(), origin_.time()));
 }
@@ -233,7 +244,7 @@ void Branch::report_obstacles(const particles::TransferObstacles& found) {
           "interactions");
   }
   for (const auto& blocked : found.blocked) {
-    const auto* body = find_named(now_.setup.bodies, blocked.surface);
+    const auto* body = base::find_named(now_.setup.bodies, blocked.surface);
     if (blocked.is_hood && now_.dust.rule().is_dust(blocked.largest_diameter)) {
       diagnostics_.warning(body->where, "bodies." + blocked.surface + ": " +
                                             grains_text(blocked.count) +
@@ -317,6 +328,7 @@ void Branch::give_to(Simulation& simulation) {
       diagnostics_.throw_errors();
       transfer(to);
     });
+    simulation.begin_sensors(sensors_going_on_);
     simulation.begin_dust_figures();
     return;
   }
@@ -332,6 +344,10 @@ void Branch::transfer(const Simulation::Owners& to) {
   const double steps = origin_.time() / now_.setup.time.fluid_step;
   to.clock.start_at(std::llround(steps));
   transfer_particles(to);
+  const auto hoods_there = openings_of(origin_.scenario().setup, origin_.scenario().dust);
+  for (const particles::Opening& hood : openings_of(now_.setup, now_.dust)) {
+    if (base::find_named(hoods_there, hood.name) == nullptr) before_.new_hoods.push_back(hood.name);
+  }
   transfer_insertion(to);
   if (to.fluid != nullptr) transfer_fluid(to);
   if (to.dust != nullptr) transfer_dust(to);
@@ -347,7 +363,7 @@ void Branch::transfer(const Simulation::Owners& to) {
 /// Bodies that were taken away stay away.
 void Branch::transfer_bodies(Models& models) {
   for (bodies::Body& body : models.bodies) {
-    const auto* theirs = find_named(their_models().bodies, body.name);
+    const auto* theirs = base::find_named(their_models().bodies, body.name);
     if (theirs != nullptr) body.removed_at = theirs->removed_at;
   }
 }
@@ -367,6 +383,20 @@ void Branch::transfer_particles(const Simulation::Owners& to) {
        " contacts begin anew, without the springs of before: their laws keep other numbers");
 }
 
+/// What an emitter remembers, be it a number of grains, stands for the same mass.
+bool Branch::has_same_densities(const scenario::EmitterSpec& ours,
+                                const scenario::EmitterSpec& theirs) const {
+  const auto density = [](const scenario::Setup& setup, int material) {
+    return setup.materials[static_cast<std::size_t>(material)].properties.density;
+  };
+  const auto is_same_density = [&](int here, int there) {
+    return density(now_.setup, here) == density(origin_.scenario().setup, there);
+  };
+  return is_same_density(ours.material, theirs.material) &&
+         std::equal(ours.more_materials.begin(), ours.more_materials.end(),
+                    theirs.more_materials.begin(), theirs.more_materials.end(), is_same_density);
+}
+
 void Branch::transfer_insertion(const Simulation::Owners& to) {
   Insertion theirs(origin_.scenario().setup, their_models());
   origin_.state().read({{"clock", [&](sdk::ArchiveReader& a) { theirs.load(a); }}});
@@ -375,17 +405,22 @@ void Branch::transfer_insertion(const Simulation::Owners& to) {
   }
   for (std::size_t n = 0; n < now_.setup.emitters.size(); ++n) {
     const std::string& name = now_.setup.emitters[n].name;
-    const bool was_there = find_named(origin_.scenario().setup.emitters, name) != nullptr;
+    const auto* before = base::find_named(origin_.scenario().setup.emitters, name);
     const scenario::ModelChoice& model = now_.setup.emitters[n].model;
-    if (was_there && same("emitters." + name) && same("frames") && same("seed") &&
+    if (before != nullptr && same("emitters." + name) && same("frames") && same("seed") &&
+        has_same_densities(now_.setup.emitters[n], *before) &&
         !is_changed(model.kind, model.name)) {
       origin_.state().read(
           {{"emitter." + name, [&](sdk::ArchiveReader& a) { to.models.emitters[n]->load(a); }}});
       continue;
     }
     to.insertion.pass_time(n, origin_.time());
-    if (!was_there) continue;
-    warn("emitters." + name + " is set otherwise: it goes on as if it had been so from the start");
+    if (before == nullptr) {
+      before_.new_emitters.push_back(name);
+      continue;
+    }
+    warn("emitters." + name +
+         " is set otherwise, or its grains are: it goes on as if it had been so from the start");
   }
 }
 
@@ -459,6 +494,7 @@ void Branch::transfer_dust(const Simulation::Owners& to) {
         "dust.field has another grid or other classes, bodies move where none did or none where "
         "some did, or there was none: its air starts as the scenario says");
     to.dust->start();
+    before_.is_field_new = true;
     return;
   }
   DustPlaces places(theirs, now_);
@@ -483,18 +519,20 @@ void Branch::transfer_dust(const Simulation::Owners& to) {
 void Branch::transfer_liberation(const Simulation::Owners& to) {
   if (!origin_.state().has("liberation", "set_free") || !same("dust.field.classes")) {
     warn("grains carried no dust, or dust of other classes: they carry what materials say");
+    before_.are_loads_new = true;
     return;
   }
   const std::vector<std::string> walls = their_particles().wall_names();
-  origin_.state().read(
-      {{"liberation", [&](sdk::ArchiveReader& a) { to.liberation->transfer_from(a, walls); }}});
+  origin_.state().read({{"liberation", [&](sdk::ArchiveReader& a) {
+                           to.liberation->transfer_from(a, walls, is_same_grid());
+                         }}});
 }
 
 /// What a sensor has added up means the same to it.
 bool Branch::keeps_statistics(const std::string& name, const sdk::Sensor& model,
                               const std::vector<double>& class_diameters) const {
   if (class_diameters != origin_.class_diameters()) return false;
-  const auto* theirs_of_name = find_named(origin_.scenario().setup.sensors, name);
+  const auto* theirs_of_name = base::find_named(origin_.scenario().setup.sensors, name);
   if (theirs_of_name == nullptr) return false;
   if (is_changed(theirs_of_name->model.kind, theirs_of_name->model.name)) return false;
   if (!same("sensors." + name) || !same("dust") || !same("time.fluid_step")) return false;
@@ -516,7 +554,7 @@ void Branch::transfer_sensors(Models& models) {
     if (keeps_statistics(name, sensor, models.class_diameters)) {
       origin_.state().read({{"sensor." + name, [&](sdk::ArchiveReader& a) { sensor.load(a); }}});
       sensors_going_on_.push_back(name);
-    } else if (find_named(origin_.scenario().setup.sensors, name) != nullptr) {
+    } else if (base::find_named(origin_.scenario().setup.sensors, name) != nullptr) {
       warn("sensors." + name + " begins anew: it, or what it looks at, is set otherwise");
     }
   }

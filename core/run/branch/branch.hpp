@@ -7,6 +7,7 @@
 #include "run/branch/used_models.hpp"
 #include "run/models.hpp"
 #include "run/simulation.hpp"
+#include "run/summary/summary.hpp"
 #include "scenario/diagnostics.hpp"
 #include "scenario/reader.hpp"
 
@@ -41,6 +42,8 @@ class Branch {
   [[nodiscard]] const std::vector<std::string>& sensors_going_on() const {
     return sensors_going_on_;
   }
+  /// What begins in this run: hoods, emitters, dust; without the amounts of before.
+  [[nodiscard]] const CountsBefore& before() const { return before_; }
   /// Sizes of the particles that come along.
   void add_diameters(std::vector<double>& class_diameters) const;
   /// Takes away the bodies that the other run had taken away, then looks for what is in the way of
@@ -63,6 +66,9 @@ class Branch {
   [[nodiscard]] bool is_changed(std::string_view kind, std::string_view name) const;
   /// Whether a law keeps other numbers per contact: none of the histories can be told apart then.
   [[nodiscard]] bool has_other_histories() const;
+  void check_emitters(const Models& models);
+  [[nodiscard]] bool has_same_densities(const scenario::EmitterSpec& ours,
+                                        const scenario::EmitterSpec& theirs) const;
   void report_obstacles(const particles::TransferObstacles& obstacles);
   [[nodiscard]] bool same(std::string_view path,
                           std::span<const std::string_view> ignored = {}) const;
@@ -98,6 +104,7 @@ class Branch {
   std::unique_ptr<particles::Dem> their_particles_;
   particles::TransferReport report_;
   std::vector<std::string> sensors_going_on_;
+  CountsBefore before_;
 };
 
 }  // namespace dust::run

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/branch/dust_places.hpp"
 
+#include "airborne/dust_field.hpp"
+#include "base/named.hpp"
 #include "run/dust/dust_stage.hpp"
 #include "run/dust/hoods.hpp"
 
@@ -11,13 +13,9 @@
 namespace dust::run {
 namespace {
 
-constexpr std::size_t k_sides = 6;
+namespace saved = airborne::saved;
 
-std::int64_t place_among(const auto& things, const std::string& name) {
-  const auto at = std::find_if(things.begin(), things.end(),
-                               [&](const auto& thing) { return thing.name == name; });
-  return at == things.end() ? -1 : at - things.begin();
-}
+constexpr std::size_t k_sides = 6;
 
 double sum_of_gone(const std::vector<std::int64_t>& here, const std::vector<double>& values) {
   double sum = 0.0;
@@ -25,11 +23,6 @@ double sum_of_gone(const std::vector<std::int64_t>& here, const std::vector<doub
     if (here[n] < 0) sum += values[n];
   }
   return sum;
-}
-
-/// "class_3_" of a field.
-std::string class_prefix(std::size_t size_class) {
-  return "class_" + std::to_string(size_class) + "_";
 }
 
 }  // namespace
@@ -47,23 +40,23 @@ DustPlaces::DustPlaces(const scenario::ReadResult& then, const scenario::ReadRes
     surface_.push_back(static_cast<std::int64_t>(side));
   }
   for (const auto& body : then.setup.bodies) {
-    const std::int64_t here = place_among(now.setup.bodies, body.name);
+    const std::int64_t here = base::number_of(now.setup.bodies, body.name);
     surface_.push_back(here < 0 ? -1 : static_cast<std::int64_t>(k_sides) + here);
   }
   const auto openings = openings_of(now.setup, now.dust);
   openings_ = openings.size();
   for (const auto& opening : openings_of(then.setup, then.dust)) {
-    opening_.push_back(place_among(openings, opening.name));
+    opening_.push_back(base::number_of(openings, opening.name));
   }
 }
 
 void DustPlaces::find_dropped(sdk::ArchiveReader& field) {
   for (std::size_t n = 0; n < dropped_.size(); ++n) {
-    dropped_[n] = sum_of_gone(surface_, field.numbers(class_prefix(n) + "surfaces")) +
-                  cell_volume_ * sum_of_gone(opening_, field.numbers(class_prefix(n) + "outlets"));
+    dropped_[n] =
+        sum_of_gone(surface_, field.numbers(saved::of_class(n, saved::k_surfaces))) +
+        cell_volume_ * sum_of_gone(opening_, field.numbers(saved::of_class(n, saved::k_outlets)));
     if (do_surfaces_run_) {
-      dropped_[n] +=
-          sum_of_gone(surface_, field.numbers(class_prefix(n) + "carried_out_on_surfaces"));
+      dropped_[n] += sum_of_gone(surface_, field.numbers(saved::of_class(n, saved::k_carried_out)));
     }
   }
 }
@@ -73,13 +66,17 @@ double DustPlaces::dropped() const {
 }
 
 const std::vector<std::int64_t>* DustPlaces::numbers_of(std::string_view name) const {
-  if (name.ends_with("_surfaces")) return &surface_;
-  return name.ends_with("_outlets") ? &opening_ : nullptr;
+  for (std::size_t n = 0; n < dropped_.size(); ++n) {
+    if (name == saved::of_class(n, saved::k_surfaces)) return &surface_;
+    if (name == saved::of_class(n, saved::k_carried_out)) return &surface_;
+    if (name == saved::of_class(n, saved::k_outlets)) return &opening_;
+  }
+  return nullptr;
 }
 
 void DustPlaces::change(std::string_view name, std::vector<double>& values) const {
   for (std::size_t n = 0; n < dropped_.size(); ++n) {
-    if (name == class_prefix(n) + "released") values.at(0) -= dropped_[n];
+    if (name == saved::of_class(n, saved::k_released)) values.at(0) -= dropped_[n];
   }
   const auto* const here = numbers_of(name);
   if (here == nullptr) return;
@@ -92,7 +89,7 @@ void DustPlaces::change(std::string_view name, std::vector<double>& values) cons
 
 /// The surfaces that layers lie on: every second number.
 void DustPlaces::change(std::string_view name, std::vector<std::int64_t>& values) const {
-  if (name != "layer_places") return;
+  if (name != airborne::k_saved_layer_places) return;
   for (std::size_t n = 1; n < values.size(); n += 2) {
     values[n] = surface_.at(static_cast<std::size_t>(values[n]));
   }

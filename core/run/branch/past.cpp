@@ -10,6 +10,7 @@ namespace {
 
 constexpr const char* k_warnings = "warnings";
 constexpr const char* k_counts = "counts";
+constexpr const char* k_before = "before";
 
 /// Texts one behind the other, a letter a number and a zero behind each.
 std::vector<std::int64_t> letters_of(const std::vector<std::string>& texts) {
@@ -52,6 +53,17 @@ StartFacts load_start(sdk::ArchiveReader& archive) {
   return start;
 }
 
+CountsBefore load_before(sdk::ArchiveReader& archive) {
+  const auto numbers = archive.numbers(k_before);
+  const auto flags = archive.integers("is_new");
+  return {.mass = numbers.at(0),
+          .dust = numbers.at(1),
+          .new_hoods = texts_of(archive.integers("new_hoods")),
+          .new_emitters = texts_of(archive.integers("new_emitters")),
+          .is_field_new = flags.at(0) != 0,
+          .are_loads_new = flags.at(1) != 0};
+}
+
 }  // namespace
 
 void save_past(const Past& past, sdk::ArchiveWriter& archive) {
@@ -64,6 +76,13 @@ void save_past(const Past& past, sdk::ArchiveWriter& archive) {
                                  start.is_same ? 1 : 0};
   archive.integers(k_counts, counts);
   archive.integers("sensors", letters_of(start.sensors));
+  const CountsBefore& before = start.before;
+  const double numbers[] = {before.mass, before.dust};
+  const std::int64_t flags[] = {before.is_field_new ? 1 : 0, before.are_loads_new ? 1 : 0};
+  archive.numbers(k_before, numbers);
+  archive.integers("is_new", flags);
+  archive.integers("new_hoods", letters_of(before.new_hoods));
+  archive.integers("new_emitters", letters_of(before.new_emitters));
 }
 
 Past load_past(const io::StoredState& state) {
@@ -72,6 +91,7 @@ Past load_past(const io::StoredState& state) {
   state.read({{k_past_part, [&](sdk::ArchiveReader& a) {
                  past.warnings = texts_of(a.integers(k_warnings));
                  if (state.has(k_past_part, k_counts)) past.start = load_start(a);
+                 if (state.has(k_past_part, k_before)) past.start->before = load_before(a);
                }}});
   return past;
 }

@@ -273,7 +273,7 @@ std::vector<io::SensorField> LiberationStage::fields() const {
 }
 
 void LiberationStage::transfer_from(sdk::ArchiveReader& archive,
-                                    const std::vector<std::string>& walls) {
+                                    const std::vector<std::string>& walls, bool is_same_grid) {
   const auto numbers = archive.numbers("set_free");
   std::vector<std::string> causes = causes_of(walls, true);
   kept_back_ = {numbers.at(0), numbers.at(1)};
@@ -286,7 +286,7 @@ void LiberationStage::transfer_from(sdk::ArchiveReader& archive,
   }
   const bool had_wind = numbers.size() == 2 + 2 * classes_ * causes.size();
   for (std::size_t kind = 0; kind < k_kinds; ++kind) {
-    if (places_[kind].empty() || (kind == by_wind && !had_wind)) continue;
+    if (!is_same_grid || places_[kind].empty() || (kind == by_wind && !had_wind)) continue;
     places_[kind] = archive.numbers(k_kind_names[kind]);
   }
 }

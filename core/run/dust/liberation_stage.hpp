@@ -58,7 +58,8 @@ class LiberationStage {
   }
 
   /// Goes on from what came off in another run with the same classes and these walls.
-  void transfer_from(sdk::ArchiveReader& archive, const std::vector<std::string>& walls);
+  void transfer_from(sdk::ArchiveReader& archive, const std::vector<std::string>& walls,
+                     bool is_same_grid);
 
   void add_parts(SaveParts& parts) const;
   void add_parts(LoadParts& parts);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/insertion/insertion.hpp"
 
+#include "base/named.hpp"
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/sphere.hpp"
 #include "setup/mark.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace dust::run {
@@ -24,14 +26,6 @@ EntryScene entry_scene_of(const scenario::Setup& setup, const Models& models) {
     scene.names.push_back(scenario::place(choice.where) + ": error: " + choice.path);
   }
   return scene;
-}
-
-/// Of the thing of this name, or -1.
-std::int32_t number_of(const auto& things, const std::string& name) {
-  for (std::size_t n = 0; n < things.size(); ++n) {
-    if (things[n].name == name) return static_cast<std::int32_t>(n);
-  }
-  return -1;
 }
 
 /// The turned frame of an emitter, if it has one.
@@ -140,27 +134,34 @@ void Insertion::insert(double time, particles::Dem& dem) {
 std::int64_t Insertion::transfer_from(const Insertion& other) {
   std::vector<std::int32_t> emitters;
   for (const auto& theirs : other.setup_.emitters) {
-    emitters.push_back(number_of(setup_.emitters, theirs.name));
+    emitters.push_back(base::number_of(setup_.emitters, theirs.name));
   }
   ledger_.transfer_from(other.ledger_, emitters);
+  departures_ = other.departures_;  // of the same domain
   delayed_ = other.delayed_;
   for (InsertionCandidate e : other.waiting_) {
     e.emitter = emitters[static_cast<std::size_t>(e.emitter)];
     const auto& material = other.setup_.materials[static_cast<std::size_t>(e.grain.material)];
-    e.grain.material = number_of(setup_.materials, material.name);
+    e.grain.material = base::number_of(setup_.materials, material.name);
     if (e.emitter >= 0 && e.grain.material >= 0) waiting_.push_back(e);
   }
   return static_cast<std::int64_t>(other.waiting_.size() - waiting_.size());
 }
 
 void Insertion::pass_time(std::size_t n, double time) {
-  if (!(time > 0.0)) return;
-  requests_.clear();
+  // Step by step, as in a run: what an emitter keeps of the past is then the same, and no more.
+  const double step = setup_.time.fluid_step;
+  const std::int64_t steps = std::llround(time / step);
   try {
-    models_.emitters[n]->propose(context_of(n, 0.0, time), requests_);
+    for (std::int64_t k = 0; k < steps; ++k) {
+      const double begin = static_cast<double>(k) * step;
+      requests_.clear();
+      models_.emitters[n]->propose(context_of(n, begin, begin + step), requests_);
+    }
   } catch (const std::exception& problem) {
     throw sdk::ModelError(scene_.names[n] + ": " + problem.what());
   }
+  requests_.clear();
 }
 
 void Insertion::save(sdk::ArchiveWriter& archive) const {

@@ -3,6 +3,7 @@
 
 #include "report/facts/dust_fractions.hpp"
 #include "run/dust/hoods.hpp"
+#include "run/summary/summary_dust.hpp"
 
 #include <functional>
 
@@ -12,7 +13,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// `mass_of`(balance) is what of a class went this way [kg].
-Json sampled(const Simulation& s,
+Json sampled(const Simulation& s, const CountedSince& since,
              const std::function<double(const airborne::DustBalance&)>& mass_of) {
   constexpr double k_milligrams = 1e6;  // per kg, as grams per tonne
   constexpr double k_hour = 3600.0;     // s
@@ -28,12 +29,13 @@ Json sampled(const Simulation& s,
     parts.thoracic += mass * shares.thoracic;
     parts.respirable += mass * shares.respirable;
   }
+  const double time = s.time() - since.time;
   Json j = {{"kg", whole},
-            {"kg_per_h", s.time() > 0.0 ? k_hour * whole / s.time() : 0.0},
+            {"kg_per_h", time > 0.0 ? k_hour * whole / time : 0.0},
             {"inhalable_kg", parts.inhalable},
             {"thoracic_kg", parts.thoracic},
             {"respirable_kg", parts.respirable}};
-  const double material = s.dem().balance().mass_emitted;
+  const double material = s.dem().balance().mass_emitted - since.mass;
   if (material > 0.0) {
     j["g_per_tonne"] = k_milligrams * whole / material;
     j["inhalable_mg_per_kg"] = k_milligrams * parts.inhalable / material;
@@ -45,18 +47,22 @@ Json sampled(const Simulation& s,
 
 }  // namespace
 
-Json dust_outflow_json(const Simulation& s) {
+Json dust_outflow_json(const Simulation& s, const RunFacts& facts) {
+  const bool is_field_new = facts.start && facts.start->before.is_field_new;
   const std::vector<particles::Opening>& openings = s.dust_stage()->openings();
   Json j = Json::object();
   for (std::size_t o = 0; o < openings.size(); ++o) {
+    const bool is_new = is_field_new || is_new_hood(facts, openings[o].name);
     j[openings[o].name] =
-        sampled(s, [&](const airborne::DustBalance& balance) { return balance.outlets[o]; });
+        sampled(s, counted_since(facts, is_new),
+                [&](const airborne::DustBalance& balance) { return balance.outlets[o]; });
   }
   for (std::size_t side = 0; side < 6; ++side) {
     if (!s.dust_stage()->lets_dust_out(side)) continue;
     const std::string name = scenario::k_side_names[side];
     j[j.contains(name) ? name + k_beside_hood : name] =
-        sampled(s, [&](const airborne::DustBalance& balance) { return balance.left[side]; });
+        sampled(s, counted_since(facts, is_field_new),
+                [&](const airborne::DustBalance& balance) { return balance.left[side]; });
   }
   return j;
 }

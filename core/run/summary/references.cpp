@@ -37,7 +37,10 @@ std::optional<double> factor_between(const std::string& written, const std::stri
 /// Our figure beside the reference, in its unit.
 void add_ours(const scenario::ReferenceSpec& r, const Json& figure, Json& one) {
   const auto factor = factor_between(r.unit, figure["unit"].get<std::string>());
-  if (!factor) return;
+  if (!factor) {
+    one["problem"] = "the figure is in " + figure["unit"].get<std::string>() + ", not in " + r.unit;
+    return;
+  }
   const double value = *factor * r.value;
   one["unit"] = figure["unit"];
   one["value"] = value;
@@ -63,6 +66,8 @@ Json references_json(std::span<const scenario::ReferenceSpec> references, const 
                 {"source", r.source}};
     if (sensors.contains(r.sensor) && sensors[r.sensor].contains(r.figure)) {
       add_ours(r, sensors[r.sensor][r.figure], one);
+    } else {
+      one["problem"] = "the run has no such figure: a class of sizes that never came, or its name";
     }
     list.push_back(one);
   }
@@ -79,7 +84,9 @@ std::vector<std::string> reference_lines(const Json& references) {
     if (r["error_percent"].is_number()) {
       line += ", " + base::fixed_text(r["error_percent"].get<double>(), 1) + " % off";
     }
-    lines.push_back(line + " (" + r["source"].get<std::string>() + ")");
+    line += " (" + r["source"].get<std::string>() + ")";
+    if (r.contains("problem")) line += "; not compared: " + r["problem"].get<std::string>();
+    lines.push_back(line);
   }
   return lines;
 }

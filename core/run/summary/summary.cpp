@@ -250,11 +250,11 @@ Json amounts_json(const Simulation& s, const RunFacts& facts) {
                   {"in_domain", b.mass_in_domain},
                   {"left", b.mass_left},
                   {"removed", b.mass_removed}};
-  j["emitters"] = emitters_json(s);
-  if (!s.dem().openings().empty()) j["hoods"] = hoods_json(s);
+  j["emitters"] = emitters_json(s, facts);
+  if (!s.dem().openings().empty()) j["hoods"] = hoods_json(s, facts);
   if (s.dust_stage() != nullptr) {
     j["dust_field"] = dust_field_json(s);
-    j["dust_outflow"] = dust_outflow_json(s);
+    j["dust_outflow"] = dust_outflow_json(s, facts);
   }
   if (s.dust_rates() != nullptr) {
     JsonFigures figures;
@@ -265,7 +265,7 @@ Json amounts_json(const Simulation& s, const RunFacts& facts) {
     j["stream_indices"] = indices.json();
   }
   if (s.liberation() != nullptr) {
-    j["dust_on_grains"] = dust_on_grains_json(s);
+    j["dust_on_grains"] = dust_on_grains_json(s, facts);
   }
   if (s.liberation() != nullptr ||
       (s.dust_setup().given && s.dust_setup().given->fall_height > 0.0)) {

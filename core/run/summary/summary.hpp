@@ -16,6 +16,16 @@
 
 namespace dust::run {
 
+/// What was counted when a run started from another, and which counts begin there: of those the
+/// time, the load and the dust of before do not count.
+struct CountsBefore {
+  double mass = 0.0;  ///< [kg] emitted
+  double dust = 0.0;  ///< [kg] of dust, emitted as grains and released into the air
+  std::vector<std::string> new_hoods, new_emitters;
+  bool is_field_new = false;
+  bool are_loads_new = false;
+};
+
 /// The state that a run started from.
 struct StartFacts {
   std::string state;                 ///< the file
@@ -25,6 +35,7 @@ struct StartFacts {
   std::int64_t without_past = 0;     ///< contacts that began anew
   bool is_same = false;              ///< the scenario says the same
   std::vector<std::string> sensors;  ///< names of those that go on
+  CountsBefore before = {};
 };
 
 /// What the run loop knows beside the simulation. Times include those before a resume.
@@ -49,6 +60,17 @@ struct RunFacts {
   std::optional<StartFacts> start;               ///< nothing: at 0 s
   std::vector<std::string> log_header;           ///< the first lines of run.log
 };
+
+/// Since when something is counted that may have begun with the run's own start.
+struct CountedSince {
+  double time = 0.0;  ///< [s]
+  double mass = 0.0;  ///< [kg] emitted before
+  double dust = 0.0;  ///< [kg]
+};
+inline CountedSince counted_since(const RunFacts& facts, bool is_new) {
+  if (!facts.start || !is_new) return {};
+  return {facts.start->time, facts.start->before.mass, facts.start->before.dust};
+}
 
 /// The nodes of the two graphs, those of a grain step first, with their times since the last
 /// resume.

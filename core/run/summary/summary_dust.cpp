@@ -5,6 +5,7 @@
 #include "run/summary/practice_rules.hpp"
 #include "setup/dust_rule.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -115,37 +116,47 @@ Drawn drawn_by(const Simulation& s, std::size_t opening) {
   return drawn;
 }
 
-Json hoods_json(const Simulation& s) {
-  constexpr double k_grams_per_tonne = 1e6;
-  constexpr double k_hour = 3600.0;  // s
+double dust_so_far(const Simulation& s) {
   const scenario::DustRule rule = s.dust_setup().rule();
-  double load = 0.0, dust = 0.0;
+  double dust = 0.0;
   for (const auto& population : s.dem().ledger().populations()) {
-    const double mass =
-        static_cast<double>(population.emitted) * population.weight * population.mass;
-    load += mass;
-    if (rule.is_dust(population.diameter, population.material)) dust += mass;
+    if (!rule.is_dust(population.diameter, population.material)) continue;
+    dust += static_cast<double>(population.emitted) * population.weight * population.mass;
   }
   if (const DustStage* stage = s.dust_stage()) {
     for (std::size_t n = 0; n < stage->field().classes(); ++n) {
       dust += stage->field().gone(n).released;
     }
   }
+  return dust;
+}
+
+bool is_new_hood(const RunFacts& facts, const std::string& name) {
+  if (!facts.start) return false;
+  const auto& hoods = facts.start->before.new_hoods;
+  return std::find(hoods.begin(), hoods.end(), name) != hoods.end();
+}
+
+Json hoods_json(const Simulation& s, const RunFacts& facts) {
+  constexpr double k_grams_per_tonne = 1e6;
+  constexpr double k_hour = 3600.0;  // s
+  const double load = s.dem().balance().mass_emitted;
+  const double dust = dust_so_far(s);
   const auto over = [](double amount, double whole) {
     return whole > 0.0 ? Json(amount / whole) : Json(nullptr);
   };
   Json j = Json::object();
   for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
     const Drawn drawn = drawn_by(s, o);
-    j[s.dem().openings()[o].name] = {
-        {"particles", static_cast<std::int64_t>(drawn.particles)},
-        {"mass_kg", drawn.mass},
-        {"dust_kg", drawn.dust},
-        {"dust_g_per_tonne", over(k_grams_per_tonne * drawn.dust, load)},
-        {"dust_kg_per_h", over(k_hour * drawn.dust, s.time())},
-        {"share_of_dust", over(drawn.dust, dust)}};
-    if (s.dust_stage() != nullptr)
-      j[s.dem().openings()[o].name]["field_dust_kg"] = drawn.field_dust;
+    const std::string& name = s.dem().openings()[o].name;
+    const CountedSince since = counted_since(facts, is_new_hood(facts, name));
+    j[name] = {{"particles", static_cast<std::int64_t>(drawn.particles)},
+               {"mass_kg", drawn.mass},
+               {"dust_kg", drawn.dust},
+               {"dust_g_per_tonne", over(k_grams_per_tonne * drawn.dust, load - since.mass)},
+               {"dust_kg_per_h", over(k_hour * drawn.dust, s.time() - since.time)},
+               {"share_of_dust", over(drawn.dust, dust - since.dust)}};
+    if (s.dust_stage() != nullptr) j[name]["field_dust_kg"] = drawn.field_dust;
   }
   return j;
 }
@@ -195,12 +206,15 @@ Json dust_field_json(const Simulation& s) {
   return {{"classes", classes}, {"sub_steps", stage.field().sub_steps()}};
 }
 
-Json dust_on_grains_json(const Simulation& s) {
+Json dust_on_grains_json(const Simulation& s, const RunFacts& facts) {
   constexpr double k_grams_per_tonne = 1e6;
   constexpr double k_hour = 3600.0;  // s
   const LiberationStage& stage = *s.liberation();
   const std::vector<std::string>& classes = s.dust_stage()->class_names();
-  const double load = s.dem().balance().mass_emitted;
+  const bool is_new = facts.start && facts.start->before.are_loads_new;
+  const CountedSince since = counted_since(facts, is_new);
+  const double load = s.dem().balance().mass_emitted - since.mass;
+  const double time = s.time() - since.time;
   Json j = Json::object();
   for (std::size_t n = 0; n < classes.size(); ++n) {
     const particles::DustLoads::Balance balance = s.dem().dust_balance(n);
@@ -209,7 +223,7 @@ Json dust_on_grains_json(const Simulation& s) {
       const double mass = stage.set_free(c, n);
       if (!(mass > 0.0)) continue;
       causes[stage.causes()[c]] = {{"kg", mass},
-                                   {"kg_per_h", k_hour * mass / s.time()},
+                                   {"kg_per_h", k_hour * mass / time},
                                    {"g_per_tonne", k_grams_per_tonne * mass / load}};
     }
     j[classes[n]] = {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "run/simulation.hpp"
+#include "run/summary/summary.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -21,11 +22,17 @@ struct Drawn {
   double field_dust = 0.0;  ///< [kg] of that, of a field
 };
 Drawn drawn_by(const Simulation& s, std::size_t opening);
+/// [kg] Of dust, emitted as grains and released into the air.
+double dust_so_far(const Simulation& s);
+
+/// Whether what a hood draws counts from a branch's own start on.
+[[nodiscard]] bool is_new_hood(const RunFacts& facts, const std::string& name);
 
 /// By hood: {"particles", "mass_kg" of them, "dust_kg" as grains and of a field, "dust_g_per_tonne"
 /// of all grains released, "dust_kg_per_h" over the whole run, "share_of_dust" released, with a
-/// field "field_dust_kg"}; the rates and the share null where nothing was.
-nlohmann::ordered_json hoods_json(const Simulation& s);
+/// field "field_dust_kg"}; the rates and the share null where nothing was. What began in a branch
+/// counts from there.
+nlohmann::ordered_json hoods_json(const Simulation& s, const RunFacts& facts);
 
 /// What became of the airborne dust: by class {"released_kg", "airborne_kg", "deposited_kg" by
 /// surface, "left_kg" by side, "hoods_kg" by hood, "balance_error", with bodies that move
@@ -37,7 +44,7 @@ nlohmann::ordered_json dust_field_json(const Simulation& s);
 /// {"entered_kg", "on_grains_kg", "set_free_kg", "set_free_by" cause {"kg", "kg_per_h",
 /// "g_per_tonne"}, "left_with_grains_kg", "drawn_out_with_grains_kg", "balance_error", with
 /// scavenging "caught_kg"}, and "kept_back_kg".
-nlohmann::ordered_json dust_on_grains_json(const Simulation& s);
+nlohmann::ordered_json dust_on_grains_json(const Simulation& s, const RunFacts& facts);
 
 /// What practice expects, orders of magnitude beside ours: by "ap42_drop" and material
 /// {"moisture", "least_g_per_tonne", "most_g_per_tonne"} finer than 30 um, over the winds 0.6 to

@@ -43,9 +43,18 @@ std::vector<SizeRow> size_rows(const Simulation& s, std::size_t e) {
   return rows;
 }
 
-/// Mass [kg] a stream should have brought by now; 0 for others.
-double requested_stream(const Simulation& s, const sdk::EmitterRequest& r) {
-  return r.mass_flow * std::max(0.0, std::min(s.time(), r.end) - r.begin);
+/// Mass [kg] a stream should have brought by now; 0 for others. One that is new in a branch was
+/// asked for nothing before.
+double requested_stream(const Simulation& s, const RunFacts& facts, std::size_t e) {
+  const sdk::EmitterRequest r = s.models().emitters[e]->request();
+  double begin = r.begin;
+  if (facts.start) {
+    const auto& fresh = facts.start->before.new_emitters;
+    const bool is_new =
+        std::find(fresh.begin(), fresh.end(), s.setup().emitters[e].name) != fresh.end();
+    if (is_new) begin = std::max(begin, facts.start->time);
+  }
+  return r.mass_flow * std::max(0.0, std::min(s.time(), r.end) - begin);
 }
 
 std::int64_t waiting_of(const Simulation& s, std::size_t e) {
@@ -75,12 +84,12 @@ constexpr std::size_t k_max_rows = 200;
 
 }  // namespace
 
-Json emitters_json(const Simulation& s) {
+Json emitters_json(const Simulation& s, const RunFacts& facts) {
   Json all = Json::object();
   for (std::size_t e = 0; e < s.models().emitters.size(); ++e) {
     const auto r = s.models().emitters[e]->request();
     const auto came = s.insertion().ledger().totals_of(e);
-    const double stream = requested_stream(s, r);
+    const double stream = requested_stream(s, facts, e);
     Json j;
     j["model"] = s.setup().emitters[e].model.name;
     j["requested"] = {{"mass_flow_kg_per_s", or_null(r.mass_flow, r.mass_flow > 0.0)},
@@ -128,16 +137,16 @@ void add_emitter_tables(const Simulation& s, Json& tables) {
   }
 }
 
-std::vector<std::string> shortfalls(const Simulation& s) {
+std::vector<std::string> shortfalls(const Simulation& s, const RunFacts& facts) {
   std::vector<std::string> all;
   for (std::size_t e = 0; e < s.models().emitters.size(); ++e) {
     const std::int64_t waiting = waiting_of(s, e);
     const auto r = s.models().emitters[e]->request();
-    if (waiting_mass_of(s, e) <= k_smallest_shortfall * requested_stream(s, r)) continue;
+    if (waiting_mass_of(s, e) <= k_smallest_shortfall * requested_stream(s, facts, e)) continue;
     std::ostringstream text;
     text << "emitter '" << s.setup().emitters[e].name
          << "' falls short: " << base::mass_text(s.insertion().ledger().totals_of(e).mass, 4);
-    const double asked = requested_stream(s, r);
+    const double asked = requested_stream(s, facts, e);
     if (asked > 0.0) text << " of " << base::mass_text(asked, 4);
     text << " came in; " << waiting << " grains wait because grains in the domain take their "
          << "places: make room in front of the emitter or reduce its flow";

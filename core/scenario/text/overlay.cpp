@@ -4,6 +4,7 @@
 #include "base/shell_word.hpp"
 #include "scenario/interactions/pair_list.hpp"
 #include "scenario/text/suggest.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -199,15 +200,29 @@ std::optional<Node> read_with_includes(const fs::path& file, Diagnostics& diagno
   return IncludeReader(diagnostics).read(file, nullptr);
 }
 
+namespace {
+
+/// What a map gave beside another model, which may be that one's alone, need not fit.
+void take_model(Node& map, const std::string& model) {
+  const Entry* before = find(map, "model");
+  if (before == nullptr || !before->value.is_text() || before->value.text == model) return;
+  for (Entry& entry : map.entries) entry.is_of_other_model = entry.key != "model";
+}
+
+}  // namespace
+
 void merge(Node& base, Node over) {
   if (!base.is_map() || !over.is_map()) {
     base = std::move(over);
     return;
   }
+  const Entry* model = find(over, "model");
+  if (model != nullptr && model->value.is_text()) take_model(base, model->value.text);
   for (Entry& entry : over.entries) {
     if (Entry* same = find(base, entry.key)) {
       if (!same->value.is_map() || !entry.value.is_map()) same->where = entry.where;
       merge(same->value, std::move(entry.value));
+      same->is_of_other_model = false;
     } else {
       base.entries.push_back(std::move(entry));
     }
@@ -226,6 +241,32 @@ void merge_scenario(Node& base, Node over) {
   merge(base, std::move(over));
 }
 
+namespace {
+
+/// Why there is no such element; empty where there is.
+std::string element_problem(const Node& node, std::size_t index) {
+  if (!node.is_list()) return " is not a list";
+  if (index < node.items.size()) return "";
+  return " has " + std::to_string(node.items.size()) + " elements, counted from 0";
+}
+
+/// Gives each number of a list the unit that the last one has for all, so that one of them can be
+/// exchanged without the others.
+void spread_unit(Node& list) {
+  std::vector<std::string> units;
+  for (const Node& item : list.items) {
+    std::string problem;
+    const auto number = item.is_text() ? split_number(item.text, problem) : std::nullopt;
+    if (!number) return;
+    units.emplace_back(number->unit);
+  }
+  const auto bare = std::count(units.begin(), units.end(), "");
+  if (units.empty() || units.back().empty() || bare + 1 < std::ssize(units)) return;
+  for (std::size_t n = 0; n + 1 < list.items.size(); ++n) list.items[n].text += " " + units.back();
+}
+
+}  // namespace
+
 void set_path(Node& root, const std::string& path, Node value, const Mark& here,
               Diagnostics& diagnostics) {
   const auto steps = parse_path(path);
@@ -240,13 +281,11 @@ void set_path(Node& root, const std::string& path, Node value, const Mark& here,
     const Step& step = (*steps)[n];
     const std::string so_far = joined(*steps, n);
     if (step.is_index) {
-      if (!node->is_list() || step.index >= node->items.size()) {
-        diagnostics.error(here, !node->is_list()
-                                    ? so_far + " is not a list"
-                                    : so_far + " has " + std::to_string(node->items.size()) +
-                                          " elements, counted from 0");
+      if (const std::string problem = element_problem(*node, step.index); !problem.empty()) {
+        diagnostics.error(here, so_far + problem);
         return;
       }
+      if (n + 1 == steps->size()) spread_unit(*node);
       node = &node->items[step.index];
       continue;
     }
@@ -280,7 +319,9 @@ void set_path(Node& root, const std::string& path, Node value, const Mark& here,
       entry = &node->entries.back();
     }
     if (is_last) entry->where = here;
-    node = &entry->value;
+    entry->is_of_other_model = false;
+    if (is_last && step.key == "model" && value.is_text()) take_model(*node, value.text);
+    node = &find(*node, step.key)->value;
   }
   *node = std::move(value);
 }

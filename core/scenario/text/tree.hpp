@@ -39,6 +39,8 @@ struct Entry {
   std::string key;
   Mark where;
   Node value;
+  /// Given beside a model whose place another one has taken: not that one's, as it seems.
+  bool is_of_other_model = false;
 };
 
 [[nodiscard]] Entry* find(Node& map, std::string_view key);

@@ -438,6 +438,7 @@ void MapReader::finish() {
   for (const Entry& entry : node_.entries) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
     if (is_open_ && nearest(entry.key, known_).empty()) continue;
+    if (entry.is_of_other_model) continue;
     diagnostics_.error(entry.where, "unknown key '" + printable(entry.key) + "' in " +
                                         (path_.empty() ? whole_ : path_) +
                                         suggestion(entry.key, known_, "its keys are"));

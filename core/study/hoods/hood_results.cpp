@@ -204,12 +204,15 @@ HoodTrial trial_of(const report::RunText& run, double flow, const std::string& h
   }
   if (grains.value == 0.0) grains.error = -1.0;
   trial.drawn = sum(grains, field);
-  const report::Figure out = report::sum_of(report::highlights_of(run).openings);
-  const double per_tonne = trial.load / k_grams_per_tonne;
+  // Per time: a load that has ended, or is not even, has no amount per tonne.
+  const report::Highlights highlights = report::highlights_of(run);
+  const bool has_rates = !highlights.leaving.empty();
+  const report::Figure out = report::sum_of(has_rates ? highlights.leaving : highlights.openings);
+  const double scale = has_rates ? 1.0 : trial.load / k_grams_per_tonne;
   const Uncertain left =
       growth.of([](const std::string& name) { return is_of_field(name, "/left"); });
-  trial.escaping = sum(
-      {out.value * per_tonne, out.uncertainty > 0.0 ? out.uncertainty * per_tonne : -1.0}, left);
+  trial.escaping =
+      sum({out.value * scale, out.uncertainty > 0.0 ? out.uncertainty * scale : -1.0}, left);
   return trial;
 }
 

@@ -43,13 +43,7 @@ class Hood final : public sdk::BoundaryCondition {
         .source = "Dirichlet condition; docs/theory/fluid.md, section 4"};
   }
 
-  explicit Hood(const Parameters& p) : p_(p), over_time_(p.over_time()) {
-    for (int d = 0; d < 3; ++d) {
-      if (p.max[d] < p.min[d]) {
-        throw sdk::ParameterError(std::string("max must not lie below min: ") + "xyz"[d]);
-      }
-    }
-  }
+  explicit Hood(const Parameters& p) : p_(p), over_time_(p.over_time()) {}
 
   [[nodiscard]] sdk::SideRules rules() const override {
     return sdk::flow_rules(p_.around == "slip" ? sdk::SideRule::gradient : sdk::SideRule::fixed);
@@ -83,7 +77,8 @@ class Hood final : public sdk::BoundaryCondition {
       if (d == sdk::axis_of(batch.normal)) continue;
       const char axis = "xyz"[d];
       if (!(p_.max[d] > p_.min[d])) {
-        throw sdk::ParameterError(std::string("hood: the opening has no width along ") + axis);
+        throw sdk::ParameterError(std::string("hood: the opening has no width along ") + axis +
+                                  ": 'max' must lie above 'min'");
       }
       const double rounding = 1e-9 * (batch.high[d] - batch.low[d]);
       if (p_.min[d] < batch.low[d] - rounding || p_.max[d] > batch.high[d] + rounding) {

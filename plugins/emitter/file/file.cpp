@@ -105,6 +105,7 @@ class File final : public sdk::PlacedEmitter {
   }
   [[nodiscard]] sdk::EmitterRequest request() const override {
     sdk::EmitterRequest r;
+    r.begin = p_.time;
     r.count = static_cast<std::int64_t>(table_.diameter.size());
     return r;
   }

@@ -111,6 +111,7 @@ class Lattice final : public sdk::PlacedEmitter {
   }
   [[nodiscard]] sdk::EmitterRequest request() const override {
     sdk::EmitterRequest r;
+    r.begin = p_.time;
     r.count = count_;
     r.shares = sdk::shares_of(sizes_);
     return r;

@@ -61,6 +61,7 @@ class Single final : public sdk::PlacedEmitter {
   }
   [[nodiscard]] sdk::EmitterRequest request() const override {
     sdk::EmitterRequest r;
+    r.begin = p_.time;
     r.count = static_cast<std::int64_t>(p_.positions.size());
     return r;
   }

@@ -51,6 +51,9 @@ class Blockage final : public sdk::Sensor {
     }
   }
 
+  void begin(const sdk::WorldView& world) override {
+    region_.begin(world, [&](double diameter) { return p_.takes(diameter); });
+  }
   void observe(const sdk::WorldView& world) override {
     double in = 0.0;
     double out = 0.0;

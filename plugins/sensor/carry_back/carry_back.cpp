@@ -57,6 +57,7 @@ class CarryBack final : public sdk::Sensor {
                                     p_.direction.z);
   }
 
+  void begin(const sdk::WorldView& world) override { emitted_mass_ = world.emitted_mass; }
   void observe(const sdk::WorldView& world) override {
     if (classes_.empty() && !world.class_diameters.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());

@@ -187,7 +187,7 @@ class LowPressure final : public sdk::Sensor {
                                               "standard error [Pa]"};
     for (const Place& place : find_places()) {
       const double values[] = {place.position.x, place.position.y, place.position.z,
-                               -place.pressure, place.error};
+                               -place.pressure, place.error < 0.0 ? sdk::k_no_value : place.error};
       sink.row("Places of low pressure", columns, values);
     }
   }

@@ -56,6 +56,7 @@ class PlaneFlux final : public sdk::Sensor {
     if (p_.role == "opening" && p_.towards.empty()) p_.towards = "emission";
   }
 
+  void begin(const sdk::WorldView& world) override { emitted_mass_ = world.emitted_mass; }
   void observe(const sdk::WorldView& world) override {
     if (classes_.empty() && !world.class_diameters.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());

@@ -55,6 +55,11 @@ class ResidenceTime final : public sdk::Sensor {
     }
   }
 
+  void begin(const sdk::WorldView& world) override {
+    const auto takes = [&](double diameter) { return p_.takes(diameter); };
+    box_.begin(world, takes);
+    if (is_from_birth()) domain_.begin(world, takes);
+  }
   void observe(const sdk::WorldView& world) override {
     if (!times_.has_unit() && world.interval > 0.0) times_.set_unit(world.interval);
     const double begin = world.time - world.interval;
@@ -63,8 +68,9 @@ class ResidenceTime final : public sdk::Sensor {
         world, [&](double diameter) { return p_.takes(diameter); }, [](const sdk::Stay&) {},
         [&](const sdk::Stay& stay, double time) {
           left += stay.mass;
-          if (time < p_.steady_after) return;
-          times_.add(stay.mass, time - since(stay, begin));
+          const double came = since(stay, begin);
+          if (time < p_.steady_after || came == sdk::Stay::k_unknown) return;
+          times_.add(stay.mass, time - came);
         });
     if (is_from_birth()) {
       domain_.update(
@@ -73,7 +79,8 @@ class ResidenceTime final : public sdk::Sensor {
     }
     oldest_ = 0.0;
     for (const sdk::Stay& stay : box_.all()) {
-      oldest_ = std::max(oldest_, world.time - since(stay, begin));
+      const double came = since(stay, begin);
+      if (came > sdk::Stay::k_unknown) oldest_ = std::max(oldest_, world.time - came);
     }
     values_ = {box_.mass(), world.interval > 0.0 ? left / world.interval : 0.0};
     if (world.interval > 0.0) row_.add({&values_[1], 1}, world.interval);

@@ -21,7 +21,8 @@ class Spillage final : public sdk::Sensor {
     sdk::SchemaOf<Parameters> s;
     s.vector(&Parameters::min, "min", sdk::dimension::length,
              "Lower corner of the level that spilt grains fall through.");
-    s.vector(&Parameters::max, "max", sdk::dimension::length, "Upper corner; equal to 'min' in z.");
+    s.vector(&Parameters::max, "max", sdk::dimension::length,
+             "Upper corner; equal to 'min' along the axis that gravity pulls along.");
     sdk::declare_selection(s);
     return s.build();
   }
@@ -33,20 +34,24 @@ class Spillage final : public sdk::Sensor {
             .source = "own definition"};
   }
 
-  explicit Spillage(const Parameters& p) : p_(p), level_(p.min, {0.0, 0.0, 1.0}, p.min, p.max) {
-    if (p.min.z != p.max.z) throw sdk::ParameterError("'min' and 'max' must agree in z: a level");
-    if (!(p.max.x > p.min.x && p.max.y > p.min.y)) {
-      throw sdk::ParameterError("'max' must lie above 'min' in x and y");
-    }
-  }
+  explicit Spillage(const Parameters& p)
+      : p_(p),
+        axis_(formula::axis_across(p.min, p.max)),
+        level_(p.min, formula::unit_vector(axis_), p.min, p.max) {}
 
+  void begin(const sdk::WorldView& world) override { emitted_ = world.emitted_mass; }
   void observe(const sdk::WorldView& world) override {
     const sdk::GrainColumns& g = world.grains;
     const bool is_steady = sdk::is_after(world, p_.steady_after);
+    const double pull = world.gravity[axis_];
+    if (pull == 0.0) {
+      throw sdk::ModelError(std::string("gravity does not pull along ") + "xyz"[axis_] +
+                            ", through the level: nothing falls through it");
+    }
     double fell = 0.0;
     for (std::size_t i = 0; i < g.id.size(); ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      if (level_.passage_of(world, i) >= 0) continue;
+      if (!(pull * level_.passage_of(world, i) > 0.0)) continue;
       const double mass = g.weight[i] * g.mass[i];
       fell += mass;
       if (!is_steady) continue;
@@ -121,6 +126,7 @@ class Spillage final : public sdk::Sensor {
   }
 
   Parameters p_;
+  int axis_;  ///< that gravity pulls along
   sdk::Rectangle level_;
   double mass_ = 0.0;            ///< [kg] since the start
   double count_ = 0.0;           ///< real grains while steady

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/survey/gap.hpp"
 #include "bodies/mesh/mesh.hpp"
+#include "bodies/survey/bounds.hpp"
 #include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 #include "unit/bodies/meshes.hpp"
@@ -143,4 +144,21 @@ TEST_CASE("bodies that their motions take to other places shall be looked at whe
   CHECK(both_ways(rib(0.5), rib(0.55)).width == approx(0.03).epsilon(1e-9));
   CHECK(both_ways(rib(0.5), rib(0.8)).width == k_infinity);
   CHECK(both_ways(rib(0.5), rib(0.51)).width == 0.0);
+}
+
+TEST_CASE("a body in a turned frame shall be drawn through the whole of a box") {
+  // A plate across x in its frame, endless along y; turned by a right angle it is endless along x,
+  // from 0.5 to 0.51 m in y.
+  Body plate =
+      body_of("plate", {{"hinge", Vec3{0.5, 0, 0.5}}, {"length", 0.2}, {"thickness", 0.01}});
+  plate.frame_axis = {0, 0, 1};
+  plate.frame_angle = 0.5 * std::numbers::pi;
+  const dust::bodies::Bounds drawn =
+      dust::bodies::bounds_of(plate.triangles({0, 0, 0}, {1, 1, 1}, 0.1));
+  CHECK(drawn.low.x <= 1e-9);
+  CHECK(drawn.high.x >= 1.0 - 1e-9);
+  // And a box that stands on it is seen to touch, whichever is looked at first.
+  const Body block = box({0.6, 0.45, 0.5}, {0.8, 0.55, 0.9});
+  const GapSearch search{{0, 0, 0}, {1, 1, 1}, 0.01, 60'000};
+  CHECK(both_ways(plate, block, search).width == 0.0);
 }

@@ -3,6 +3,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 using namespace dust;
 using namespace dust::test;
 using sdk::Vec3;
@@ -31,4 +35,21 @@ TEST_CASE("lists that do not fit the number of grains shall be refused") {
           emitter("single", {{"positions", std::vector<Vec3>(3)},
                              {"diameters", std::vector<double>{1e-3, 2e-3}}});
         }) == "diameters has 2 entries for 3 positions: give one for all, or one each");
+}
+
+TEST_CASE("grains shall come in the step that begins at their moment, however that is rounded") {
+  for (const double step : {1e-3, 0.01, 0.1}) {
+    for (int n = 0; n < 1000; ++n) {
+      const double time = std::stod(std::to_string(n * step));  // as it is written
+      const auto single = emitter("single", {{"positions", std::vector<Vec3>(1)},
+                                             {"diameters", std::vector<double>{1e-3}},
+                                             {"time", time}});
+      std::vector<sdk::InsertionRequest> requests;
+      for (int k = std::max(0, n - 1); k <= n; ++k) {
+        CHECK(requests.empty());
+        single->propose(context(k * step, k * step + step), requests);
+      }
+      CHECK(requests.size() == 1);
+    }
+  }
 }

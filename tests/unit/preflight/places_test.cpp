@@ -405,3 +405,35 @@ TEST_CASE("a stream that leaves the domain and meets nothing shall be warned of"
   // Gravity of the wrong sign.
   CHECK(warned({{"gravity", "[0, 0, 9.81]"}, {"emitters.feed.velocity", "[0, 0, -0.5 m/s]"}}));
 }
+
+TEST_CASE("grains shall be let in where a body has been taken away by then, and not before") {
+  const auto from = [](const std::string& begin, const std::string& remove) {
+    return std::vector<scenario::Override>{{"emitters.feed.min", "[20, 10, 27 mm]"},
+                                           {"emitters.feed.max", "[60, 40, 27 mm]"},
+                                           {"emitters.feed.begin", begin},
+                                           {"bodies.shelf.remove", remove}};
+  };
+  CHECK(said(from("50 ms", "{at: 50 ms}")).errors == std::vector<std::string>{});
+  CHECK(problem(from("40 ms", "{at: 50 ms}"), {"would start inside 'shelf'"}) == "");
+}
+
+TEST_CASE("a belt with cleats shall not be taken for a mesh from a file") {
+  const std::string belt =
+      "{shape: belt_conveyor, material: sand, tail: [-500, YY, 20 mm], head: [600, YY, 20 mm], "
+      "width: 2 mm, thickness: 1 mm, radius: 10 mm, cleat_height: 1 mm, cleat_thickness: "
+      "1 mm, cleat_spacing: 100 mm}";
+  for (const std::string place : {"25", "5000"}) {
+    std::string text = belt;
+    for (std::size_t at = text.find("YY"); at != std::string::npos; at = text.find("YY")) {
+      text.replace(at, 2, place);
+    }
+    CAPTURE(place);
+    const Said all = said({{"domain.boundaries.left.grains", "open"},
+                           {"domain.boundaries.right.grains", "open"},
+                           {"bodies.shelf", text}});
+    CHECK(all.errors == std::vector<std::string>{});
+    for (const std::string& line : all.warnings) {
+      CHECK(line.find("unit: 1 m") == std::string::npos);
+    }
+  }
+}

@@ -110,6 +110,43 @@ TEST_CASE("the first screen shall tell how much, from where, how sure and where 
   CHECK(extraction["places"][1]["dust_share"].get<double>() == approx(1.0));
 }
 
+TEST_CASE("a place whose pressure is not surely below zero shall not be the one to extract first") {
+  const RunFolder folder;
+  json summary = run_with_openings();
+  folder.write_h5({});
+  summary["sensors"]["suction"]["f"]["uncertainty"] = nullptr;
+  folder.write("summary.json", summary.dump());
+  CHECK(document_of(folder)["extraction"]["first"] == 0);  // the dust is at the other
+  summary["sensors"]["suction"]["f"]["uncertainty"] = 0.2;
+  folder.write("summary.json", summary.dump());
+  CHECK(document_of(folder)["extraction"]["first"] == 0);
+}
+
+TEST_CASE("dust near a place shall be near it in depth as well, where the domain is deep") {
+  const RunFolder folder;
+  json summary = run_with_openings();
+  auto& suction = summary["sensors"]["suction"];
+  const auto set = [&](const char* name, int index, const char* quantity, double value) {
+    suction[name] = with_role(fake_figure(value, "m"), "low_pressure", quantity);
+    suction[name]["index"] = index;
+  };
+  for (const int index : {1, 2}) {
+    const std::string n = std::to_string(index);
+    set(("x" + n).c_str(), index, "x", 0.5);
+    set(("y" + n).c_str(), index, "y", index == 1 ? 0.1 : 0.9);
+    set(("z" + n).c_str(), index, "z", 0.5);
+  }
+  for (const char* name : {"a", "b", "d", "e"}) suction.erase(name);
+  folder.write("summary.json", summary.dump());
+  folder.write("scenario.yaml", "domain: {min: [0, 0, 0], max: [1, 1, 1]}\n");
+  folder.write_tracks({{{1, 10e-6, 0.5, 0.5, 0.0, 0.9}, {2, 500e-6, 0.1, 0.1, 0.0, 0.1}}});
+  const json extraction = document_of(folder)["extraction"];
+  REQUIRE(extraction["places"].size() == 2);
+  CHECK(extraction["places"][0]["dust_share"] == 0.0);
+  CHECK(extraction["places"][1]["dust_share"].get<double>() == approx(1.0));
+  CHECK(extraction["first"] == 1);
+}
+
 TEST_CASE("an amount that rests on few grains or is not steady shall say so instead of an error") {
   const RunFolder folder;
   json summary = run_with_openings();

@@ -79,6 +79,7 @@ TEST_CASE("report.json shall hold the numbers of the summary and what is made of
   CHECK(document["dust"]["headline"]["value"] == 0.01372);
   CHECK(document["dust"]["headline"]["uncertainty"] == 0.0021);
   CHECK(document["stream"][0]["median"]["value"] == 0.128404);
+  CHECK(document["stream"][0]["sensor"] == "stream");
   for (const json& row : document["balance"]) CHECK(row["is_closed"] == true);
   // Nodes of a group are listed one by one, not with their sum.
   CHECK(document["cost"]["nodes"].size() == 2);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/approx.hpp"
 #include "unit/scenario/support.hpp"
 
 #include <doctest/doctest.h>
@@ -148,4 +149,32 @@ TEST_CASE("a pair shall be completed by another one it is like") {
   CHECK(wrong("    like: [sand, plate]\n").find("in a circle") != std::string::npos);
   CHECK(wrong("    like: sand\n").find("two materials of another interaction") !=
         std::string::npos);
+}
+
+TEST_CASE("one component of a list shall be set without the unit of the others") {
+  // min: [0, 0, 0], max: [330, 11, 350 mm]
+  const auto max_with = [](const std::string& path, const std::string& value) {
+    return read(transfer_point(), {{path, value}}).setup.domain.max;
+  };
+  const auto last = max_with("domain.max[2]", "0.36 m");
+  CHECK(last.x == test::approx(0.33));
+  CHECK(last.y == test::approx(0.011));
+  CHECK(last.z == 0.36);
+  const auto first = max_with("domain.max[0]", "40 cm");
+  CHECK(first.x == test::approx(0.4));
+  CHECK(first.y == test::approx(0.011));
+  CHECK(first.z == test::approx(0.35));
+  // A bare number is neither millimetres nor, silently, metres.
+  for (const char* path : {"domain.max[0]", "domain.max[2]"}) {
+    const auto lines = problems(transfer_point(), {{path, "0.4"}});
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].find("'0.4' has no unit but others have: give each one its unit") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("a setting may exchange a model that has parameters") {
+  const auto setup =
+      read(transfer_point(), {{"domain.boundaries.left.air.model", "no_slip"}}).setup;
+  CHECK(setup.domain.sides[0].air->name == "no_slip");
 }

@@ -197,3 +197,20 @@ TEST_CASE("a scenario that the engine wrote shall draw no warning of bare number
   CHECK(read(written, {{"bodies.belt.thickness", "3"}}).warnings.size() ==
         given.warnings.size() + 1);
 }
+
+TEST_CASE("an including file may exchange a model that has parameters") {
+  const Folder folder;
+  folder.write("base.yaml", changed(k_small, "air: {model: total_pressure}",
+                                    "air: {model: total_pressure, pressure: 2 Pa}"));
+  const std::string top =
+      "include: base.yaml\ndomain:\n  boundaries:\n    top: {air: {model: no_slip";
+  const auto setup = read(folder.write("top.yaml", top + "}}\n")).setup;
+  CHECK(setup.domain.sides[5].air->name == "no_slip");
+  // The same model takes what was given before, and what neither knows is told.
+  const std::string same = changed(top, "no_slip", "total_pressure");
+  const auto kept = read(folder.write("same.yaml", same + "}}\n")).setup;
+  CHECK(std::get<double>(kept.domain.sides[5].air->values[0]) == 2.0);
+  const auto lines = problems(folder.write("wrong.yaml", top + ", presure: 1 Pa}}\n"));
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].find("unknown key 'presure'") != std::string::npos);
+}

@@ -122,6 +122,8 @@ TEST_CASE("a reference shall be compared in the unit of the figure") {
   CHECK(list[0]["error_percent"].get<double>() < 1e-9);
   CHECK(list[1]["ours"].is_null());  // a mass is no width
   CHECK(list[1]["unit"] == "kg");
+  CHECK(list[1]["problem"] == "the figure is in m, not in kg");
+  CHECK(!list[0].contains("problem"));
 }
 
 TEST_CASE("ours shall stand beside the reference with the difference in per cent") {
@@ -149,5 +151,8 @@ TEST_CASE("ours shall stand beside the reference with the difference in per cent
       lines[0] ==
       "sensors.slope.angle: ours 39.52 +- 0.4 deg, reference 41.6 +- 1.1 deg, 5.0 % off (thesis)");
   CHECK(lines[1] == "sensors.slope.count: ours 3, reference 0 (zero)");
-  CHECK(lines[2] == "sensors.slope.class_10_um/rate: ours - g/t, reference 2 g/t (never seen)");
+  CHECK(lines[2] ==
+        "sensors.slope.class_10_um/rate: ours - g/t, reference 2 g/t (never seen); not "
+        "compared: the run has no such figure: a class of sizes that never came, or "
+        "its name");
 }

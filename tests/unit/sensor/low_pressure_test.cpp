@@ -100,6 +100,34 @@ TEST_CASE("pressure before the averaging shall not count") {
   CHECK(figures["place_1/x"] == test::approx(0.0145).epsilon(1e-9));
 }
 
+namespace {
+
+/// The last cell of each row of tables.
+struct LastCells final : sdk::ReportSink {
+  std::vector<double> cells;
+  void section(std::string_view, std::string_view) override {}
+  void curve(std::string_view, std::string_view, std::string_view, std::string_view,
+             std::span<const double>, std::span<const double>) override {}
+  void row(std::string_view, std::span<const std::string>,
+           std::span<const double> values) override {
+    cells.push_back(values.back());
+  }
+};
+
+}  // namespace
+
+TEST_CASE("an error that is not known shall have no number in the report's table") {
+  const auto sensor = kind().make({});
+  SyntheticScene world;
+  set_cells(world, 20, 3, 20);
+  dig(world, {{5, 1, 5, 1.0}});
+  for (int s = 0; s < 45; ++s) step(*sensor, world);  // two blocks of 20 ms
+  LastCells rows;
+  sensor->report(rows);
+  REQUIRE(rows.cells.size() == 1);
+  CHECK(std::isnan(rows.cells[0]));
+}
+
 TEST_CASE("the error of a depth shall cover the truth at its rate") {
   Coverage coverage;
   SyntheticScene world;

@@ -310,6 +310,20 @@ TEST_CASE("a feed that begins or ends while dust is counted shall give no amount
   CHECK(per_tonne(0.0, 0, 100).value == test::approx(0.8).epsilon(1e-9));
 }
 
+TEST_CASE("what was emitted before a sensor begins shall not count as fed while it looks") {
+  const auto sensor = kind().make(k_lip);
+  SyntheticScene world;
+  world.emitted_mass = 3.0;
+  begin(*sensor, world);
+  for (int s = 0; s < 400; ++s) {
+    world.grains = {moving({0.0795, 0.005, 0.205}, {0.0805, 0.005, 0.205}, world.interval)};
+    world.grains.back().mass = 1e-9;
+    world.emitted_mass += 5e-3;
+    step(*sensor, world);
+  }
+  CHECK(summary_of(*sensor)["net/grams_per_tonne"] == test::approx(0.2).epsilon(1e-9));
+}
+
 TEST_CASE("an opening shall say so of its figures, whatever the sensor is called") {
   auto parameters = k_lip;
   parameters["role"] = std::string("opening");

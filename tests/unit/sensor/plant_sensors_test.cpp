@@ -178,6 +178,29 @@ TEST_CASE("what falls through the level shall count once, per hour and per tonne
   CHECK(figures.at("rate").uncertainty == test::approx(3600.0 / std::sqrt(10.0)).epsilon(1e-9));
 }
 
+TEST_CASE("down shall be where gravity pulls, and a level across nothing be refused") {
+  const auto mass_of = [](Vec3 gravity, Vec3 velocity) {
+    const auto sensor =
+        load_sensor("spillage").make({{"min", Vec3{0, 0.005, 0}}, {"max", Vec3{0.2, 0.005, 0.2}}});
+    SyntheticScene world;
+    world.gravity = gravity;
+    world.grains.push_back(at({0.1, 0.0051, 0.1}, velocity, 1e-3));
+    world.grains.push_back(at({0.1, 0.0049, 0.1}, -1.0 * velocity, 2e-3));
+    move_on(world);
+    step(*sensor, world);
+    return summary_of(*sensor)["mass"];
+  };
+  CHECK(mass_of({0, -9.81, 0}, {0, -1, 0}) == test::approx(1e-3));
+  CHECK(mass_of({0, 9.81, 0}, {0, -1, 0}) == test::approx(2e-3));
+  CHECK(mass_of({1, -9.81, 1}, {0, -1, 0}) == test::approx(1e-3));
+  CHECK_THROWS_AS(mass_of({0, 0, -9.81}, {0, -1, 0}), sdk::ModelError);
+  const auto sensor = load_sensor("spillage");
+  for (const Vec3 max :
+       {Vec3{0.2, 0.01, 0.1}, Vec3{0.2, 0, 0}, Vec3{0, 0, 0}, Vec3{-0.1, 0.01, 0}}) {
+    CHECK_THROWS_AS(sensor.make({{"min", Vec3{}}, {"max", max}}), sdk::ParameterError);
+  }
+}
+
 TEST_CASE("spillage of a feed that has ended or changes shall have no amount per tonne") {
   const auto per_tonne = [](double steady_after, int begin, int end) {
     const auto sensor = load_sensor("spillage")

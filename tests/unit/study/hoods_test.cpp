@@ -336,3 +336,35 @@ TEST_CASE("the table shall say what few grains tell, and where the capture is no
   results.places[0].trials[1].flow = 60.0 / 3600.0;
   CHECK(study::hood_table(results, 0.9).find("at 60 m3/h)") != std::string::npos);
 }
+
+TEST_CASE("what escapes as grains shall count also where the feed has ended") {
+  const test::TemporaryFolder folder;
+  const auto study = folder / "study";
+  const auto point = study / "points" / "h";
+  std::filesystem::create_directories(point);
+  std::ofstream(point / "scenario.yaml")
+      << "bodies:\n  suggested_hood: {shape: box, group: place_1, suction: {flow: 60 l/min}}\n"
+         "dust: {finer_than: 100 um}\n";
+  // 8 mg/s through the opening; per tonne there is nothing.
+  const std::string role =
+      R"("role": "opening", "direction": "net", "diameters_m": [1e-05, 1e-05])";
+  std::ofstream(point / "summary.json")
+      << R"({"status": "finished", "sensors": {"mouth": {)"
+      << R"("class_10_um/net/grams_per_tonne": {"value": null, "unit": "g/t", "uncertainty": null, )"
+      << R"("no_error": "feed not even", "quantity": "mass_per_load", )" << role << "}, "
+      << R"("class_10_um/net/mass_rate": {"value": 8e-6, "unit": "kg/s", "uncertainty": 4e-7, )"
+      << R"("quantity": "mass_rate", )" << role << "}}}}";
+  std::ofstream series(point / "series.csv");
+  series << "time [s],mass_emitted [kg],hoods/suggested_hood/dust [kg]\n";
+  for (int row = 0; row <= 60; ++row) {
+    series << 0.05 * row << ",1," << 2e-6 * 0.05 * row << '\n';
+  }
+  series.close();
+  std::ofstream(study / "study.csv")
+      << "point,case,status,hash\n1,place_1_at_60_l_min,finished,h\n";
+  const study::HoodResults results = study::hood_results(study);
+  REQUIRE(results.places.size() == 1);
+  const study::HoodTrial& tried = results.places[0].trials.at(0);
+  CHECK(tried.escaping.value == test::approx(8e-6).epsilon(1e-9));
+  CHECK(tried.capture()->value == test::approx(0.2).epsilon(1e-5));
+}

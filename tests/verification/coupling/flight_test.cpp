@@ -130,6 +130,20 @@ TEST_CASE("Stokes drag shall be integrated exactly, however long the step") {
   }
 }
 
+TEST_CASE("a grain at rest that a law of beds gives no drag shall fall as if in nothing") {
+  for (const bool has_company : {false, true}) {
+    World::Choice choice;
+    choice.factor = [](double reynolds, double) { return 1e-3 * reynolds; };
+    Flight flight(choice);
+    if (has_company) flight.world.grains.add({1, 0, 0}, {0, 0, -1}, 5e-4);
+    flight.world.grains.add({0, 0, 0}, {}, 5e-4);
+    const std::size_t row = has_company ? 1 : 0;
+    double time = 0.0;
+    for (int n = 0; n < 5; ++n) time += flight.advance(2e-4, {0, 0, -9.81});
+    CHECK(flight.world.grains.velocity[4 * row + 2] == test::approx(-9.81 * time).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("a fall with a constant drag coefficient shall be a hyperbolic tangent") {
   constexpr double k_c_d = 0.44;
   World::Choice choice;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "base/text.hpp"
 #include "commands.hpp"
 #include "scenario/reader.hpp"
@@ -93,11 +94,11 @@ void write_study(const Arguments& given) {
   const study::HoodStudy study = study::hood_study(given.folder, options, *registry);
   write_file(options.file, study.text);
   print_sites(study);
+  const std::string results = base::shell_word("results/" + scenario::name_from_file(options.file));
   std::cout << "wrote " << options.file.string() << ": " << study.points() << " points of "
             << base::digits_text(study.duration, 4) << " s; next: engine study "
-            << options.file.string() << " -o results/" << scenario::name_from_file(options.file)
-            << ", then: engine suggest-hoods results/" << scenario::name_from_file(options.file)
-            << '\n';
+            << base::shell_word(options.file.string()) << " -o " << results
+            << ", then: engine suggest-hoods " << results << '\n';
 }
 
 /// Options of the study that is written.

@@ -69,12 +69,15 @@ class Run:
         """One number of the summary, named as studies name it: `mass_kg.left`, or
         `sensors.stream.drop_100_mm.median`."""
         if path.startswith("sensors."):
-            _, sensor, figure = path.split(".", 2)
+            _, sensor, figure = (path + ".").split(".", 2)
+            figure = figure.removesuffix(".")
             sensors = self.summary["sensors"]
             figures = sensors[find_name(sensor, sensors, "sensor")]
             return _number(figures[find_name(figure.replace(".", "/"), figures, "figure")]["value"])
         found, parts = self.summary, path.split(".")
         while parts:
+            if not isinstance(found, dict):
+                raise ResultsError(f"{path!r}: there is nothing below {'.'.join(path.split('.')[:-len(parts)])!r}")
             # Figures are named by paths: "left/right/rate" of dust_rates.
             rest = "/".join(parts)
             name = rest if rest in found else parts[0]

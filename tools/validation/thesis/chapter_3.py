@@ -2,7 +2,7 @@
 
 from cases.settling_b import TEN_CATE
 from effects import Change
-from thesis.row import Row, Sign
+from thesis.row import Row, Sign, difference
 
 WATER = 0.158
 # Printed errors of the thesis's largest velocity; which way they are it does not say.
@@ -104,5 +104,5 @@ def further_off(worse, better, figure, truth):
     found = [run.figure(*figure) for run in (worse, better)]
     if None in found:
         return None
-    errors = [abs(value - truth) for value, _ in found]
-    return Change(errors[0] - errors[1], sum(error or 0.0 for _, error in found) or None)
+    off = [(abs(value - truth), error) for value, error in found]
+    return difference(off[1], off[0])

@@ -2,9 +2,8 @@
 
 import study_points
 from cases import hourglass, hourglass_friction, rectangular_container
-from effects import Change
 from runs import read_table
-from thesis.row import Row, Sign
+from thesis.row import Row, Sign, difference
 
 SOFT = "E 5 MPa in place of 50"
 OURS = "sizes (the thesis gives none)"
@@ -73,7 +72,7 @@ def container(runs):
             out.append(Row("4.6", f"container, W/D {n}, walls, {place}: angle [deg]", (run.name,), run.figure(f"slope_{place}", "angle"),
                            why="the thesis shows pictures of it", differs=f"{OURS}, {SOFT}"))
     narrow, wide = found["walls", 4], found["walls", 32]
-    ours = Change(narrow[0] - wide[0], (narrow[1] or 0.0) + (wide[1] or 0.0) or None) if narrow and wide else None
+    ours = difference(wide, narrow) if narrow and wide else None
     return out + [Sign("Table 4.10", "container, walls: angle at W/D 4 less that at 32 [deg]", ("container_walls", "container_walls_32"),
                        ours, "6.0", f"{OURS}, {SOFT}")]
 

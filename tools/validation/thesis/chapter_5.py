@@ -5,7 +5,7 @@ from bed import LITRES_PER_MINUTE, VESSEL_SECTION
 from cases.fluidised_studies import point
 from effects import Change
 from runs import read_table
-from thesis.row import Row, Sign
+from thesis.row import Row, Sign, difference
 
 PRESSURE_ERROR = 0.3  # [mbar], of a measured one
 FLOATING = 56  # [l/min], minimum fluidisation as the thesis measures it
@@ -88,7 +88,7 @@ def signs(runs):
                  Change(up[0] - down[0]) if up and down else None, "+1.2 (measured)", f"rising: {COLUMN}; falling: {WIDE}"),
             Sign("5.5", "minimum fluidisation, 0.6 mm less distribution [m/s]",
                  (grains["distribution"].name, grains["mono_0_6_mm"].name),
-                 Change(coarse[0] - fine[0], (coarse[1] or 0) + (fine[1] or 0) or None) if fine and coarse else None, "rises (1.35 by Ergun)", WIDE),
+                 difference(fine, coarse) if fine and coarse else None, "rises (1.35 by Ergun)", WIDE),
             *depth(runs)]
 
 
@@ -106,7 +106,7 @@ def drop_of(runs, study, label):
     """(name, pressure drop [mbar]) of a point of a study."""
     run = runs[point(study, label).name]
     ours = run.figure("drop", "pressure_drop")
-    return run.name, ours and (ours[0] / 100, (ours[1] or 0.0) / 100)
+    return run.name, ours and (ours[0] / 100, None if ours[1] is None else ours[1] / 100)
 
 
 def beside_walls(runs, litres):

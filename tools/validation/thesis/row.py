@@ -1,6 +1,7 @@
 """A row of docs/validation/thesis.md and its verdict."""
 
 import dataclasses
+import math
 
 import effects
 
@@ -84,6 +85,13 @@ class Sign:
             change = f"{self.ours.size:+.3g}" + (f" ± {self.ours.error:.2g}" if self.ours.error else "")
         return [self.where, self.what, "-", self.shown, change, self.verdict(),
                 self.band(), self.differs, ", ".join(self.runs), cost]
+
+
+def difference(one, other):
+    """The effects.Change from one (value, standard error or None) to another: errors add in squares, and where one is not known
+    neither is that of the change."""
+    errors = one[1], other[1]
+    return effects.Change(other[0] - one[0], None if None in errors else math.hypot(*errors))
 
 
 def with_uncertainty(value, uncertainty):

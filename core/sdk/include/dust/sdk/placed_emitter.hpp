@@ -12,7 +12,8 @@ namespace dust::sdk {
 /// Emitters whose grains all come at one moment: the derived class says where, once.
 ///
 /// The moment is the beginning of the fluid step in which `time` lies; at 0 the grains are there
-/// before the first step. No grain waits for its place: one that is taken is an error.
+/// before the first step. Where `time` is the end of a step but for rounding, it is the beginning
+/// of the next. No grain waits for its place: one that is taken is an error.
 class PlacedEmitter : public Emitter {
  public:
   void propose(const EmitterContext& context, std::vector<InsertionRequest>& requests) final {
@@ -20,7 +21,9 @@ class PlacedEmitter : public Emitter {
       check(context);
       return;
     }
-    if (is_done_ || !(time_ < context.end)) return;
+    // Ends of steps are rounded: a moment that is one belongs to the step that begins there.
+    const double rounding = k_step_rounding * (context.end - context.begin);
+    if (is_done_ || !(time_ < context.end - rounding)) return;
     const std::size_t first = requests.size();
     place(context, requests);
     for (std::size_t n = first; n < requests.size(); ++n) requests[n].time = context.begin;
@@ -40,6 +43,8 @@ class PlacedEmitter : public Emitter {
   virtual void check(const EmitterContext&) const {}
 
  private:
+  static constexpr double k_step_rounding = 1e-6;  ///< of an interval
+
   double time_;
   bool is_done_ = false;
 };

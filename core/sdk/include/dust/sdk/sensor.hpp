@@ -218,6 +218,10 @@ class Sensor : public Model {
  public:
   static constexpr const char* k_kind = "sensor";
   virtual void observe(const WorldView& world) = 0;
+  /// The world as it is when a sensor begins later than the grains, as in a run that starts from
+  /// another: called once, before the first look, with an interval of 0. What is there already has
+  /// not come in, and what was emitted is not fed, while it looked.
+  virtual void begin(const WorldView&) {}
   /// Whether the view needs contacts, which cost a pass over all of them.
   [[nodiscard]] virtual bool wants_contacts() const { return false; }
   /// Columns for series.csv: the same names in the same order at every call.

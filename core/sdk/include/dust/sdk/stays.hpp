@@ -46,6 +46,9 @@ struct Stay {
   std::int64_t id = 0;
   double since = 0.0;  ///< [s] when it came in, or was born there
   double mass = 0.0;   ///< [kg] with its statistical weight
+
+  /// Of one that was there before anybody looked.
+  static constexpr double k_unknown = -std::numeric_limits<double>::infinity();
 };
 
 /// The grains in the box [min, max) [m] from sample to sample. Paths between two samples are taken
@@ -54,6 +57,17 @@ struct Stay {
 class Stays {
  public:
   Stays(Vec3 min, Vec3 max) : min_(min), max_(max) {}
+
+  /// Grains that are there already: they have not come in, and nobody knows since when they stay.
+  template <class Takes>
+  void begin(const WorldView& world, const Takes& takes) {
+    const GrainColumns& g = world.grains;
+    stays_.clear();
+    for (std::size_t i = 0; i < g.id.size(); ++i) {
+      if (!takes(g.diameter[i]) || !is_in_box({g.x[i], g.y[i], g.z[i]}, min_, max_)) continue;
+      stays_.push_back({g.id[i], Stay::k_unknown, g.weight[i] * g.mass[i]});
+    }
+  }
 
   /// One sample. `takes(diameter [m])`: whether a grain counts at all; `enter(stay)` and
   /// `leave(stay, time [s])` are called in the order of the ids.
