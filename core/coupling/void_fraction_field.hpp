@@ -6,6 +6,7 @@
 #include "dust/sdk/voidage_rule.hpp"
 #include "particles/grain_rows.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -47,7 +48,7 @@ class VoidFractionField {
                               MultiCellKernel& wide) const {
     if (!wide.takes(position[3])) return after()[lattice_.host_cell(own, position)];
     wide.set(position, position[3]);
-    return wide.mean(after());
+    return std::min(1.0, wide.mean(after()));  // weights sum to 1 but for rounding
   }
   /// Cells in which after() may differ from 1.
   [[nodiscard]] const std::vector<std::ptrdiff_t>& filled_cells() const { return after_.active; }

@@ -238,6 +238,23 @@ void Sides::swap_inflow(Inflow& other) {
   has_inflow_.swap(other.passes_idle);
 }
 
+namespace {
+
+/// Where numbers along a side stand, from one on its first face.
+struct AlongSide {
+  std::ptrdiff_t edge = 0, second = 0;  ///< first and second inside
+  std::ptrdiff_t out = 0;               ///< from one to the next, outwards
+};
+
+/// A velocity along a side beyond it: mirrored about what the side gives; for sweeps that itself.
+void continue_along(double* at, double given, const AlongSide& place, bool for_sweeps) {
+  const auto& [edge, second, out] = place;
+  at[edge + out] = for_sweeps ? given : 2.0 * given - at[edge];
+  if (!for_sweeps) at[edge + 2 * out] = 2.0 * given - at[second];
+}
+
+}  // namespace
+
 void Sides::fill_component(std::vector<double>& v, int d, int direction, bool for_sweeps) const {
   const std::ptrdiff_t s = grid_.stride[direction];
   const int n = grid_.count[direction];
@@ -282,11 +299,8 @@ void Sides::fill_component(std::vector<double>& v, int d, int direction, bool fo
         at[edge] = wall;
         at[further] = 2.0 * wall - at[third];
         at[edge + out] = 2.0 * wall - at[second];
-      } else if (for_sweeps) {
-        at[edge + out] = wall;
       } else {
-        at[edge + out] = 2.0 * wall - at[edge];
-        at[edge + 2 * out] = 2.0 * wall - at[second];
+        continue_along(at, wall, {edge, second, out}, for_sweeps);
       }
     });
   }
@@ -327,8 +341,7 @@ void Sides::fill_corner(std::vector<double>& v, int side, int d, int high, bool 
     const int q = std::clamp(along < d ? face : n, 0, size[1] - 1);
     const double wall = given[static_cast<std::size_t>(q) * size[0] + p];
     double* at = &v[grid_.index(0, 0, 0) + n * grid_.stride[along] + face * grid_.stride[d]];
-    at[edge + out] = for_sweeps ? wall : 2.0 * wall - at[edge];
-    if (!for_sweeps) at[edge + 2 * out] = 2.0 * wall - at[second];
+    continue_along(at, wall, {edge, second, out}, for_sweeps);
   }
 }
 

@@ -40,6 +40,11 @@ void FluidSolver::Impl::advance(double time, double step, const CellField& befor
     const double begin = static_cast<double>(cut) / cuts;
     const double end = cut + 1 == cuts ? 1.0 : (cut + 1.0) / cuts;
     last_share = advance_part(s, begin, end);
+    if (cut + 1 == cuts) {
+      // Before means of flows that vary change what continuity knows of cut faces.
+      sides_.fill_velocity(u_);
+      report_.divergence = projection_.continuity().largest_divergence(u_, void_fraction_.field());
+    }
     if (cuts > 1) {
       const Interval part{time + begin * step, time + end * step};
       projection_.add_throughflow(u_, void_fraction_.field(), part, end - begin);
@@ -167,7 +172,6 @@ void FluidSolver::Impl::end_step(const StepState& s, double last_share) {
   const CellField& eps = void_fraction_.field();
   sides_.fill_velocity(u_);
   report_.largest_speed = limits_.find(u_, s.time + s.step).speed;
-  report_.divergence = projection_.continuity().largest_divergence(u_, eps);
   report_.pressure_iterations = projection_.iterations();
   if (s.keeps_mean) drag_velocity_.end(sides_);
   stress_.flow_changed();

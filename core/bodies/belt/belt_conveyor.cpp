@@ -84,7 +84,8 @@ void declare_trough(SchemaOf<Parameters>& s) {
                   "How far the tops of the pulleys are above the line of the centre rolls.");
   optional_length(&Parameters::sag, "sag", "Sag of the belt midway between two idlers.");
   optional_length(&Parameters::idler_spacing, "idler_spacing",
-                  "Distance between idlers, counted from the head pulley; for the sag.");
+                  "Distance between idlers, for the sag: a whole number of them goes between the "
+                  "pulleys, the distance nearest to this.");
 }
 
 void declare_cleats(SchemaOf<Parameters>& s) {
@@ -114,7 +115,10 @@ TroughParameters trough_of(const Parameters& p) {
   t.half_centre = 0.5 * (p.centre_roll > 0.0 ? p.centre_roll : 0.38 * p.width);
   t.rise = p.pulley_rise;
   t.sag = p.sag;
-  t.idler_spacing = p.idler_spacing;
+  if (p.idler_spacing > 0.0) {
+    // The belt lies on the tops of both pulleys.
+    t.idler_spacing = t.length / std::max(1.0, std::round(t.length / p.idler_spacing));
+  }
   if (t.half_centre >= t.half_width) {
     throw sdk::ParameterError("centre_roll is not shorter than the width");
   }

@@ -150,15 +150,26 @@ void GeometryBuilder::find_blocked(int d) {
         const Vec3 upper = grid_.centre(i, j, k);
         Vec3 lower = upper;
         lower[d] -= grid_.spacing[d];
-        const auto from = field_.outside(lower);
-        const auto to = field_.outside(upper);
-        const auto way = from && to ? field_.passes_through(*from, *to) : std::nullopt;
-        if (!way) continue;
-        g_.blocked.push_back(blocked_face(d, c, *from, *to, *way));
-        closed_[d][o] = 2;
+        bool is_blocked = add_blocked(d, c, lower, upper);
+        if (!is_blocked && c[d] == 0) {
+          // What stands before the other side of a periodic pair stands between these two as well.
+          Vec3 period;
+          period[d] = grid_.period()[d];
+          is_blocked = add_blocked(d, c, lower + period, upper + period);
+        }
+        if (is_blocked) closed_[d][o] = 2;
       }
     }
   }
+}
+
+/// Whether a thin body keeps apart the cells round two points.
+bool GeometryBuilder::add_blocked(int d, const std::array<int, 3>& c, Vec3 lower, Vec3 upper) {
+  const auto from = field_.outside(lower);
+  const auto to = field_.outside(upper);
+  const auto way = from && to ? field_.passes_through(*from, *to) : std::nullopt;
+  if (way) g_.blocked.push_back(blocked_face(d, c, *from, *to, *way));
+  return way.has_value();
 }
 
 /// `way` [m] from the lower to the upper cell until the body is met.

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,7 +46,21 @@ class GeometryBuilder {
   /// Cells whose points in the fluid have a thin body between them have nothing to do with each
   /// other. A way through the grid from one side of the body to the other crosses it somewhere, and
   /// there it meets such a face: nothing leaks.
+  /// From a face towards its neighbour: what lies between them.
+  struct Neighbour {
+    sdk::Vec3 from, there;
+    bool is_solid = false;       ///< the neighbour is in a body
+    std::optional<double> thin;  ///< [m] to a body thinner than the way
+    [[nodiscard]] bool is_wall() const { return is_solid || thin.has_value(); }
+  };
+  struct LookAt {
+    bool is_closed = false;       ///< the neighbour
+    bool may_be_blocked = false;  ///< by a thin body
+    bool is_at_end = false;       ///< the neighbour is beyond a periodic side
+  };
+  [[nodiscard]] Neighbour look(sdk::Vec3 from, int dir, int side, LookAt at) const;
   void find_blocked(int d);
+  bool add_blocked(int d, const std::array<int, 3>& c, Vec3 lower, Vec3 upper);
   [[nodiscard]] BlockedFace blocked_face(int d, const std::array<int, 3>& c, Vec3 from, Vec3 to,
                                          double way) const;
   void find_unknowns(int d);

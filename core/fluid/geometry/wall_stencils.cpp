@@ -72,6 +72,25 @@ bool GeometryBuilder::meet_boundary(int d, int dir, int side, double h, CutFace&
   return dir == 0;
 }
 
+/// What lies between a face and its neighbour on one side of it.
+GeometryBuilder::Neighbour GeometryBuilder::look(Vec3 from, int dir, int side, LookAt at) const {
+  const double h = grid_.spacing[dir];
+  const auto look_from = [&](Vec3 here, bool asks_thin) {
+    Neighbour neighbour{here, here, false, std::nullopt};
+    neighbour.there[dir] += side == 0 ? -h : h;
+    neighbour.is_solid = at.is_closed && is_inside(neighbour.there);
+    if (!neighbour.is_solid && asks_thin)
+      neighbour.thin = field_.passes_through(here, neighbour.there);
+    return neighbour;
+  };
+  const Neighbour here = look_from(from, at.may_be_blocked);
+  if (here.is_wall() || !at.is_at_end || field_.is_empty()) return here;
+  // Bodies stand where they are, also before the other side of a periodic pair.
+  from[dir] += side == 0 ? grid_.period()[dir] : -grid_.period()[dir];
+  const Neighbour other = look_from(from, true);
+  return other.is_wall() ? other : here;
+}
+
 bool GeometryBuilder::stencil(int d, int dir, const std::array<int, 3>& c, std::ptrdiff_t o,
                               CutFace& face) {
   const double h = grid_.spacing[dir];
@@ -89,13 +108,9 @@ bool GeometryBuilder::stencil(int d, int dir, const std::array<int, 3>& c, std::
       continue;
     }
     const std::ptrdiff_t q = wrapped(o, dir, c[dir], side == 0 ? -1 : 1);
-    Vec3 there = here;
-    there[dir] += side == 0 ? -h : h;
     const bool is_closed = g_.kind[d][q] == FaceKind::inside;
-    const bool is_solid = is_closed && is_inside(there);
-    std::optional<double> thin;
-    if (!is_solid && may_be_blocked) thin = field_.passes_through(here, there);
-    if (!is_solid && !thin) {
+    const Neighbour neighbour = look(here, dir, side, {is_closed, may_be_blocked, c[dir] == edge});
+    if (!neighbour.is_wall()) {
       if (is_closed) continue;  // its point is still in the open
       // The shear stress between two layers is that of both in a row: harmonic mean.
       const double own = properties_.viscosity_at(d, o);
@@ -106,7 +121,7 @@ bool GeometryBuilder::stencil(int d, int dir, const std::array<int, 3>& c, std::
       }
       continue;
     }
-    double s = thin ? *thin : wall_distance(here, there);
+    double s = neighbour.thin ? *neighbour.thin : wall_distance(neighbour.from, neighbour.there);
     if (s < k_min_distance * h) {
       s = k_min_distance * h;
       ++g_.close_distances;
@@ -114,7 +129,7 @@ bool GeometryBuilder::stencil(int d, int dir, const std::array<int, 3>& c, std::
     own_side.distance = s;
     own_side.is_wall = true;
     is_irregular = true;
-    there = here;
+    Vec3 there = neighbour.from;
     there[dir] += side == 0 ? -s : s;
     face.wall_point[2 * dir + side] = add_wall_point(there);
   }
@@ -139,8 +154,19 @@ void GeometryBuilder::find_ghosts(int d) {
       for (int i = 0; i < e[0]; ++i) {
         const std::ptrdiff_t o = grid_.index(i, j, k);
         if (g_.kind[d][o] != FaceKind::inside) continue;
-        const Vec3 p = grid_.face(d, i, j, k);
-        const Hit hit = nearest(p);
+        Vec3 p = grid_.face(d, i, j, k);
+        Hit hit = nearest(p);
+        const std::array<int, 3> c = {i, j, k};
+        if (closed_[d][o] == 2 && c[d] == 0) {
+          // A thin body before the other side of a periodic pair.
+          Vec3 other = p;
+          other[d] += grid_.period()[d];
+          const Hit there = nearest(other);
+          if (std::abs(there.distance) < std::abs(hit.distance)) {
+            p = other;
+            hit = there;
+          }
+        }
         GhostFace ghost;
         ghost.at = static_cast<std::int32_t>(o);
         ghost.wall_point = static_cast<std::int32_t>(points_.size());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace dust::fluid {
@@ -51,10 +52,59 @@ EddyStress::EddyStress(const Grid& grid, const Geometry& geometry, const Sides& 
   }
   find_walls(start);
   find_distances(bodies, 0.0);
+  find_edges();
 }
 
 void EddyStress::bodies_moved(const bodies::BodySet& bodies, double time) {
   find_distances(bodies, time);
+  find_edges();
+}
+
+bool EddyStress::is_in_body(int d, std::array<int, 3> face) const {
+  for (int e = 0; e < 3; ++e) {
+    const int n = grid_.count[e];
+    if (grid_.is_periodic[e]) {
+      face[e] = (face[e] + n) % n;
+    } else if (face[e] < 0 || face[e] >= (e == d ? n + 1 : n)) {
+      return false;
+    }
+  }
+  return geometry_.kind[d][grid_.index(face[0], face[1], face[2])] == FaceKind::inside;
+}
+
+/// Whether the edge at the lower corner of a cell along d and e lies on a wall.
+bool EddyStress::is_at_wall(int d, int e, const std::array<int, 3>& edge) const {
+  for (const auto& [of, across] : {std::pair{d, e}, std::pair{e, d}}) {
+    const bool is_on_side = edge[across] == 0 || edge[across] == grid_.count[across];
+    const int high = edge[across] == 0 ? 0 : 1;
+    if (is_on_side && ghost_rule(sides_.kinds(), of, across, high) == GhostRule::fixed) return true;
+    std::array<int, 3> below = edge;
+    below[across] -= 1;
+    if (is_in_body(of, edge) || is_in_body(of, below)) return true;
+  }
+  return false;
+}
+
+void EddyStress::find_edges() {
+  for (int f = 0; f < 3; ++f) {
+    const int d = (f + 1) % 3;
+    const int e = (f + 2) % 3;
+    std::array<int, 3> n = grid_.count;
+    n[d] += 1;
+    n[e] += 1;
+    walls_.edge[f].assign(grid_.size, 1.0);
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      for (int i = 0; i < n[0]; ++i) {
+        if (is_at_wall(d, e, {i, j, k})) walls_.edge[f][grid_.index(i, j, k)] = 0.0;
+      }
+    });
+    walls_.is_blocked[f].assign(grid_.size, 0);
+  }
+  for (const BlockedFace& face : geometry_.blocked) {
+    const int d = face.axis;
+    walls_.is_blocked[d][face.at] = 1;
+    if (face.upper[d] == 0) walls_.is_blocked[d][face.at + grid_.count[d] * grid_.stride[d]] = 1;
+  }
 }
 
 void EddyStress::find_walls(const FaceField& start) {
@@ -63,12 +113,12 @@ void EddyStress::find_walls(const FaceField& start) {
     const int high = side % 2;
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
-    is_wall_[side] = ghost_rule(sides_.kinds(), e, d, high) == GhostRule::fixed;
-    for (int a = 0; a < grid_.count[e] && is_wall_[side]; ++a) {
+    walls_.is_side[side] = ghost_rule(sides_.kinds(), e, d, high) == GhostRule::fixed;
+    for (int a = 0; a < grid_.count[e] && walls_.is_side[side]; ++a) {
       for (int b = 0; b < grid_.count[f]; ++b) {
         const std::ptrdiff_t o = grid_.index(0, 0, 0) + a * grid_.stride[e] + b * grid_.stride[f] +
                                  high * grid_.count[d] * grid_.stride[d];
-        if (start.component[d][o] != 0.0) is_wall_[side] = false;
+        if (start.component[d][o] != 0.0) walls_.is_side[side] = false;
       }
     }
   }
@@ -81,7 +131,7 @@ void EddyStress::find_distances(const bodies::BodySet& bodies, double time) {
       const sdk::Vec3 centre = grid_.centre(i, j, k);
       double least = std::numeric_limits<double>::infinity();
       for (int side = 0; side < 6; ++side) {
-        if (!is_wall_[side]) continue;
+        if (!walls_.is_side[side]) continue;
         const int d = side / 2;
         const double end = grid_.origin[d] + (side % 2) * grid_.count[d] * grid_.spacing[d];
         least = std::min(least, std::abs(centre[d] - end));
@@ -99,6 +149,19 @@ void EddyStress::find_distances(const bodies::BodySet& bodies, double time) {
   });
 }
 
+/// [1/s] Of the mean of a component's two faces of cell o, which are `own` apart, along e: over two
+/// cells, or to the one that no thin body keeps apart.
+double EddyStress::slope(const std::vector<double>& v, std::ptrdiff_t o, std::ptrdiff_t own,
+                         int e) const {
+  const std::ptrdiff_t t = grid_.stride[e];
+  const std::ptrdiff_t down = walls_.is_blocked[e][o] != 0 ? 0 : t;
+  const std::ptrdiff_t up = walls_.is_blocked[e][o + t] != 0 ? 0 : t;
+  const int cells = (down != 0 ? 1 : 0) + (up != 0 ? 1 : 0);
+  if (cells == 0) return 0.0;
+  return 0.5 * ((v[o + up] + v[o + up + own]) - (v[o - down] + v[o - down + own])) /
+         (cells * grid_.spacing[e]);
+}
+
 void EddyStress::find_viscosity(const FaceField& u) {
   for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
     const std::ptrdiff_t row = grid_.index(0, j, k);
@@ -112,12 +175,8 @@ void EddyStress::find_viscosity(const FaceField& u) {
         sum += 2.0 * own * own;
         const int e = (d + 1) % 3;
         const std::ptrdiff_t t = grid_.stride[e];
-        const auto& w = u.component[e];
-        // Means of the two faces, differences over two cells.
-        const double across =
-            0.25 * ((v[o + t] + v[o + t + s]) - (v[o - t] + v[o - t + s])) / grid_.spacing[e];
-        const double back =
-            0.25 * ((w[o + s] + w[o + s + t]) - (w[o - s] + w[o - s + t])) / grid_.spacing[d];
+        const double across = slope(v, o, s, e);
+        const double back = slope(u.component[e], o, t, d);
         sum += (across + back) * (across + back);
       }
       rate_[o] = std::sqrt(sum);
@@ -149,9 +208,11 @@ void EddyStress::force_row(const FaceField& u, int d, int j, int k) {
       const std::ptrdiff_t t = grid_.stride[e];
       const auto& w = u.component[e];
       // Stress on the edge at the lower corner of face o along e.
+      const auto& is_open = walls_.edge[3 - d - e];
       const auto edge = [&](std::ptrdiff_t at) {
-        const double mean = 0.25 * ((viscosity_[at] + viscosity_[at - s]) +
-                                    (viscosity_[at - t] + viscosity_[at - t - s]));
+        const double mean =
+            0.25 * is_open[at] *
+            ((viscosity_[at] + viscosity_[at - s]) + (viscosity_[at - t] + viscosity_[at - t - s]));
         return mean * ((v[at] - v[at - t]) / grid_.spacing[e] + (w[at] - w[at - s]) / h);
       };
       force += (edge(o + t) - edge(o)) / grid_.spacing[e];

@@ -8,15 +8,18 @@
 #include "fluid/sides.hpp"
 
 #include <array>
+#include <vector>
 
 namespace dust::fluid {
 
 /// Stress of the motion smaller than a cell, by the eddy viscosity of a model:
 ///   tau_ij = mu_t (d_i u_j + d_j u_i) ;   docs/theory/fluid.md, eq. (15).
+/// There is none at walls, where eddies end: not on sides at which the fluid sticks, nor at bodies,
+/// nor through those thinner than a cell.
 /// Taken explicitly and as differences of fluxes between neighbouring faces: what one loses the
 /// next one gains. In cubic cells a model of their size is stable wherever convection is: with mu_t
-/// of (0.2 h)^2 rho |S| the diffusion number is below 0.25 times the Courant number. In flat cells,
-/// and along a direction of one cell, it is not: rate() limits the step.
+/// of (0.2 h)^2 rho |S| the diffusion number is below 0.25 times the Courant number. In flat cells
+/// it is not: rate() limits the step.
 class EddyStress {
  public:
   /// Walls among the sides (where the fluid sticks and none is blown through at the start) are
@@ -43,9 +46,23 @@ class EddyStress {
   [[nodiscard]] const FaceField& mean_force() const { return mean_force_; }
 
  private:
+  /// Where eddies end.
+  struct Walls {
+    std::array<bool, 6> is_side{};
+    /// Of edges, by the direction along them, at the cell whose lower edge they are: 0 at walls,
+    /// else 1.
+    std::array<std::vector<double>, 3> edge;
+    std::array<std::vector<char>, 3> is_blocked;  ///< faces that a thin body closes
+  };
   void find_walls(const FaceField& start);
   void find_distances(const bodies::BodySet& bodies, double time);
+  void find_edges();
+  /// Whether a face of component d, which may lie beyond a periodic side, is in or next to a body.
+  [[nodiscard]] bool is_in_body(int d, std::array<int, 3> face) const;
+  [[nodiscard]] bool is_at_wall(int d, int e, const std::array<int, 3>& edge) const;
   void find_viscosity(const FaceField& u);
+  [[nodiscard]] double slope(const std::vector<double>& v, std::ptrdiff_t o, std::ptrdiff_t own,
+                             int e) const;
   void force_row(const FaceField& u, int d, int j, int k);
 
   const Grid& grid_;
@@ -54,8 +71,8 @@ class EddyStress {
   const FaceProperties& properties_;
   const sdk::TurbulenceModel& model_;
   double filter_width_ = 0.0;
-  std::array<bool, 6> is_wall_{};  ///< sides
-  CellField distance_;             ///< [m]
+  Walls walls_;
+  CellField distance_;  ///< [m]
   CellField density_;
   CellField molecular_;
   CellField rate_;  ///< [1/s]

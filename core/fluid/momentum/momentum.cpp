@@ -38,6 +38,7 @@ void Momentum::find_flux(const FaceField& u, const CellField& eps) {
   // Rows of the padded block, but for the first plane, which has no lower neighbour.
   const int row = static_cast<int>(std::min(grid_.stride[1], grid_.stride[2]));
   const bool is_flat = sides_.is_idle(1);
+  const bool passes_flat = is_flat && !sides_.is_still(1);  // the control volumes lose it
   const int first = is_flat ? Grid::k_halo : 0;
   const int ny = is_flat ? 1 : grid_.count[1] + 2 * Grid::k_halo;
   const int nz = grid_.count[2] + 2 * Grid::k_halo;
@@ -46,6 +47,10 @@ void Momentum::find_flux(const FaceField& u, const CellField& eps) {
     for (int d = 0; d < 3; ++d) {
       if (d == 1 && (is_flat || j == 0)) continue;  // has no lower neighbour, or does not count
       flux_row(row, grid_.stride[d], &eps[o], &u.component[d][o], &flux_.component[d][o]);
+    }
+    for (std::ptrdiff_t face = o; passes_flat && face <= o + grid_.stride[1];
+         face += grid_.stride[1]) {
+      flux_row(row, grid_.stride[1], &eps[face], &u.component[1][face], &flux_.component[1][face]);
     }
   });
 }
@@ -117,8 +122,10 @@ RowFlux Momentum::row_flux(int d, int j, int k) const {
   for (std::size_t e = 0; e < 3; ++e) {
     flux.through[e] = &flux_.component[e][o];
     flux.stride[e] = grid_.stride[e];
-    // Of one cell nothing varies, and nothing flows out between walls.
-    flux.per_length[e] = grid_.count[e] == 1 ? 0.0 : 1.0 / grid_.spacing[static_cast<int>(e)];
+    // Through one cell nothing flows in or out, unless its sides give it.
+    const int dir = static_cast<int>(e);
+    const bool is_closed = grid_.count[e] == 1 && (grid_.is_periodic[e] || sides_.is_still(dir));
+    flux.per_length[e] = is_closed ? 0.0 : 1.0 / grid_.spacing[dir];
   }
   flux.across = grid_.stride[d];
   return flux;

@@ -43,6 +43,12 @@ void Projection::add_throughflow(const FaceField& u, const CellField& eps, Inter
     auto& mean = mean_throughflow_.component[d];
     for (std::size_t o = 0; o < grid_.size; ++o) mean[o] += share * last.component[d][o];
   }
+  std::vector<Continuity::Sink> sinks;
+  cut_.set_mean_sinks(sinks, part);
+  for (Continuity::Sink& sink : sinks) {
+    sink.rate *= share;
+    mean_sinks_.push_back(sink);
+  }
 }
 
 void Projection::find_throughflow(const FaceField& u, const CellField& eps,
@@ -55,6 +61,7 @@ void Projection::find_throughflow(const FaceField& u, const CellField& eps,
 }
 
 std::vector<Continuity::Sink> Projection::mean_sinks() const {
+  if (!mean_throughflow_.component[0].empty()) return mean_sinks_;
   std::vector<Continuity::Sink> sinks;
   cut_.set_mean_sinks(sinks, step_);
   return sinks;

@@ -38,6 +38,7 @@ class Projection {
     iterations_ = 0;
     step_ = step;
     mean_throughflow_ = {};
+    mean_sinks_.clear();
   }
   /// What passes the faces over an interval between two cuts, `share` of the step; for steps of
   /// several.
@@ -78,10 +79,11 @@ class Projection {
   double tolerance_;
   Continuity continuity_;
   GhostPressure ghost_pressure_;
-  CellField p_;                 ///< [Pa]
-  FaceField zero_;              ///< no drag; empty until it is needed
-  FaceField mean_throughflow_;  ///< [m/s] empty in steps of one cut
-  Interval step_;               ///< [s] the last one
+  CellField p_;                               ///< [Pa]
+  FaceField zero_;                            ///< no drag; empty until it is needed
+  FaceField mean_throughflow_;                ///< [m/s] empty in steps of one cut
+  std::vector<Continuity::Sink> mean_sinks_;  ///< of the cells of each cut, in such steps
+  Interval step_;                             ///< [s] the last one
   int iterations_ = 0;
   bool is_consistent_ = false;
 };

@@ -274,3 +274,24 @@ TEST_CASE("a belt whose parts do not fit shall be refused") {
   CHECK(refused("up", Vec3{-1, 0, 0}) == "up is along the belt");
   CHECK(refused("sag", 0.02) == "sag needs the idler_spacing");
 }
+
+TEST_CASE("a sagging belt shall lie on both pulleys, wherever the idlers are wanted") {
+  for (const double spacing : {1.0, 1.25, 1.7, 30.0}) {
+    CAPTURE(spacing);
+    auto values = troughed();
+    values["tail"] = Vec3{-12, 0, 0};
+    values["sag"] = 0.03;
+    values["idler_spacing"] = spacing;
+    const auto belt = make_shape("belt_conveyor", values);
+    const double top = k_radius + k_thickness;
+    for (const double end : {-12.0, 0.0}) {
+      CHECK(belt->nearest({end, 0, top + 0.01}).distance == approx(0.01).epsilon(1e-6));
+      // Smoothly from run to pulley.
+      for (const double x : {end - 1e-4, end + 1e-4}) {
+        const auto near = belt->nearest({x, 0, top + 0.01});
+        CHECK(std::abs(near.distance - 0.01) < 1e-6);
+        CHECK(near.normal.z > 1.0 - 1e-6);
+      }
+    }
+  }
+}

@@ -193,6 +193,27 @@ TEST_CASE("what has passed shall be the integral of the flow also where the grid
   CHECK(left == test::approx(entered).epsilon(0.05));
 }
 
+TEST_CASE(
+    "the divergence of a step of several cuts shall be told of its end, also of ramped flows") {
+  const double step = 2e-3;
+  Case c;
+  c.max = {0.06, 0.005, 0.06};
+  c.cells = {24, 1, 24};
+  c.fluid.density = 1.2;
+  c.fluid.viscosity = 1.8e-5;
+  c.fluid.pressure_tolerance = 1e-11;
+  for (auto& s : c.sides) s = slip();
+  c.sides[4]->velocity = [](Vec3, double t) { return Vec3{0, 0, 100.0 * t}; };
+  c.sides[5] = open_side(0.0, false);
+  c.bodies.push_back(moving(std::make_unique<Cylinder>(Vec3{0.0203, 0, 0.0311}, 0.008, false),
+                            Shift::steady({1.3 * 0.0025 / step, 0, 0})));
+  c.start();
+  for (int n = 0; n < 3; ++n) {
+    c.advance(step);
+    CHECK(c.solver->report().divergence < 1e-5);  // of some 500 1/s that the body makes
+  }
+}
+
 TEST_CASE("a flow switched on within a step shall act as from the middle of it, second order") {
   const double coarse = difference_after_switching(4e-3);
   const double fine = difference_after_switching(2e-3);

@@ -264,4 +264,7 @@ TEST_CASE("sides that contradict themselves shall be refused with the reason") {
             .find("beyond the side along x") != std::string::npos);
   CHECK(refusal("hood", {{"flow", 1e-4}, {"min", Vec3{0.01, 0, 0}}, {"max", Vec3{0.01, 0.01, 0}}})
             .find("no width along x") != std::string::npos);
+  // Along the normal of its side anything.
+  CHECK(refusal("hood", {{"flow", 1e-4}, {"min", Vec3{0, 0, 0.35}}, {"max", Vec3{0.01, 0.01, 0}}})
+            .empty());
 }

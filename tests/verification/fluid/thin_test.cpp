@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 using namespace dust;
 using namespace dust::test;
@@ -247,4 +248,53 @@ TEST_CASE(
     still.advance(1e-3);
     CHECK(std::isfinite(still.p(1, 0, 1)));
   }
+}
+
+TEST_CASE("a sheet before either side of a periodic pair shall hold the fluid back") {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double place : {0.0002, 0.0008, 0.0192, 0.0198}) {
+      Case c;
+      c.max = {0.02, 0.02, 0.02};
+      c.cells = {10, 10, 10};
+      c.fluid.density = 1.2;
+      c.fluid.viscosity = 1.8e-5;
+      c.fluid.pressure_tolerance = 1e-9;
+      Vec3 middle{0.01, 0.01, 0.01};
+      Vec3 normal, force;
+      middle[axis] = place;
+      normal[axis] = 1.0;
+      force[axis] = 5.0;  // N/m3: 0.1 Pa over the period
+      c.bodies.push_back(body(std::make_unique<Plate>(middle, normal, 0.0), 0.0));
+      c.start();
+      c.set_source(force);
+      for (int n = 0; n < 3; ++n) c.advance(1e-3);
+      CAPTURE(axis);
+      CAPTURE(place);
+      CHECK(largest_flow(c, axis) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("layers along a sheet before a periodic side shall feel it from both sides") {
+  // Fluid that slides along a plate 0.2 cells before the upper side is slowed below and above it,
+  // as along one 0.2 cells behind the lower side.
+  const auto speeds = [](double place) {
+    Case c;
+    c.max = {0.02, 0.02, 0.02};
+    c.cells = {4, 4, 10};
+    c.fluid.density = 1.2;
+    c.fluid.viscosity = 1.8e-5;
+    c.fluid.pressure_tolerance = 1e-9;
+    c.bodies.push_back(
+        body(std::make_unique<Plate>(Vec3{0.01, 0.01, place}, Vec3{0, 0, 1}, 0.0), 0.0));
+    c.start();
+    c.solver->set_velocity([](Vec3) { return Vec3{1, 0, 0}; });
+    c.advance_to(0.02, 1e-3);
+    return std::pair{c.u(0, 1, 1, 0), c.u(0, 1, 1, 9)};
+  };
+  const auto low = speeds(0.0004);
+  const auto high = speeds(0.0196);
+  CHECK(low.first < 0.95);
+  CHECK(high.second == test::approx(low.first).epsilon(1e-6));
+  CHECK(high.first == test::approx(low.second).epsilon(1e-6));
 }

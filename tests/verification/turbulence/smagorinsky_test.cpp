@@ -3,12 +3,15 @@
 #include "contract/plugin_library.hpp"
 #include "support/approx.hpp"
 #include "verification/fluid/fluid_case.hpp"
+#include "verification/fluid/test_bodies.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -188,7 +191,7 @@ TEST_CASE("the eddies shall stay stable in flat cells and along a direction of o
     c.sides[5] = test::wall({10, 0, 0});
     c.start();
     c.solver->use(*model);
-    for (int n = 0; n < 50; ++n) c.advance(cells.step);
+    c.advance_to(0.5, cells.step);
     double low = 0.0, high = 0.0;
     c.each_face(0, [&](int, int, int, Vec3, double u) {
       low = std::min(low, u);
@@ -199,6 +202,59 @@ TEST_CASE("the eddies shall stay stable in flat cells and along a direction of o
     CHECK(high < 10.01);
     CHECK(high > 5.0);  // the eddies have set it in motion
   }
+}
+
+/// Air of next to no viscosity at 5 m/s over a box of 16 cells' height, whose walls are `bodies`,
+/// or sides where there are none. [m/s] of each layer of cells after 20 ms.
+std::vector<double> layers(bodies::BodySet bodies, bool has_sides, double lower_speed) {
+  const auto model = smagorinsky();
+  auto c = box({6, 4, 16}, {0.06, 0.04, 0.16}, 1e-9);
+  if (has_sides) {
+    c.sides[4] = test::wall();
+    c.sides[5] = test::wall();
+  } else {
+    c.sides[4] = test::slip();
+    c.sides[5] = test::slip();
+  }
+  c.bodies = std::move(bodies);
+  c.start();
+  c.solver->use(*model);
+  c.solver->set_velocity([&](Vec3 x) { return Vec3{x.z > 0.08 ? 5.0 : lower_speed, 0, 0}; });
+  for (int n = 0; n < 20; ++n) c.advance(1e-3);
+  std::vector<double> speeds;
+  for (int k = 0; k < 16; ++k) speeds.push_back(c.u(0, 3, 2, k));
+  return speeds;
+}
+
+bodies::BodySet set_of(std::unique_ptr<bodies::Shape> one,
+                       std::unique_ptr<bodies::Shape> other = {}) {
+  bodies::BodySet all;
+  all.push_back(test::body(std::move(one), 0.0));
+  if (other) all.push_back(test::body(std::move(other), 0.0));
+  return all;
+}
+
+TEST_CASE("eddies shall not reach through a sheet, wherever it lies in the cells") {
+  for (const double place : {0.08, 0.0777, 0.0823}) {
+    CAPTURE(place);
+    const auto speeds = layers(
+        set_of(std::make_unique<test::Plate>(Vec3{0, 0, place}, Vec3{0, 0, 1}, 0.0)), false, 0.0);
+    for (int k = 0; k < 16; ++k) {
+      // What the plate's own cell starts with is that of its side or not; it stays there.
+      if (k == 7 || k == 8) continue;
+      CHECK(std::abs(speeds[static_cast<std::size_t>(k)] - (k > 8 ? 5.0 : 0.0)) < 1e-5);
+    }
+  }
+}
+
+TEST_CASE("eddies shall end at walls, be they sides or bodies on the grid's planes") {
+  const auto sides = layers({}, true, 5.0);
+  const auto bodies =
+      layers(set_of(std::make_unique<test::HalfSpace>(Vec3{0, 0, 0.03}, Vec3{0, 0, 1}),
+                    std::make_unique<test::HalfSpace>(Vec3{0, 0, 0.13}, Vec3{0, 0, -1})),
+             false, 5.0);
+  for (int k = 0; k < 16; ++k) CHECK(std::abs(sides[static_cast<std::size_t>(k)] - 5.0) < 1e-5);
+  for (int k = 3; k < 13; ++k) CHECK(std::abs(bodies[static_cast<std::size_t>(k)] - 5.0) < 1e-5);
 }
 
 }  // namespace
