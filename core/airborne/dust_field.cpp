@@ -59,7 +59,9 @@ DustField::DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spe
     c.dust = make_class(diameter, spec.density, gravity, gas);
     if (spec.inertia) {
       const double g = norm(gravity);
-      c.dust.inertia_time = g > 0.0 ? norm(c.dust.drift) / g
+      // Dust lighter than the fluid goes where the fluid is speeded up to.
+      const double sign = spec.density < gas.density ? -1.0 : 1.0;
+      c.dust.inertia_time = g > 0.0 ? sign * norm(c.dust.drift) / g
                                     : c.dust.response_time * (1.0 - gas.density / spec.density);
     }
     c.mass.assign(grid.size, 0.0);
@@ -70,7 +72,7 @@ DustField::DustField(const fluid::Grid& grid, const scenario::DustFieldSpec& spe
     classes_.push_back(std::move(c));
   }
   // Classes ascend: the last one takes longest to follow.
-  const double memory = classes_.back().dust.inertia_time;
+  const double memory = std::abs(classes_.back().dust.inertia_time);
   if (spec.inertia && memory > 0.0) acceleration_.emplace(grid, memory);
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace dust::airborne {
 namespace {
@@ -60,6 +62,110 @@ struct Searcher {
   std::vector<char> is_inside_;
 };
 
+/// Slivers by the neighbours that they are most open to, which may be slivers themselves.
+class Chains {
+ public:
+  Chains(const Searcher& searcher, const std::vector<std::ptrdiff_t>& slivers) {
+    for (const std::ptrdiff_t cell : slivers) {
+      if (const std::ptrdiff_t found = searcher.host_of(cell); found >= 0) host_[cell] = found;
+    }
+    for (const std::ptrdiff_t cell : slivers) open_ring(cell);
+    std::vector<std::pair<int, std::ptrdiff_t>> by_links;
+    by_links.reserve(host_.size());
+    for (const auto& [cell, host] : host_) by_links.emplace_back(links(cell), cell);
+    std::sort(by_links.begin(), by_links.end());
+    for (const auto& [links, cell] : by_links) order_.push_back(cell);
+  }
+  /// Of each sliver that has one; from the cells that all chains end at outwards.
+  [[nodiscard]] const std::vector<std::ptrdiff_t>& order() const { return order_; }
+  [[nodiscard]] std::ptrdiff_t host(std::ptrdiff_t cell) const { return host_.at(cell); }
+  [[nodiscard]] bool has_host(std::ptrdiff_t cell) const { return host_.count(cell) > 0; }
+
+ private:
+  /// Slivers that are each other's hosts all round: the lowest of them is theirs.
+  void open_ring(std::ptrdiff_t cell) {
+    std::vector<std::ptrdiff_t> way;
+    while (has_host(cell)) {
+      const auto seen = std::find(way.begin(), way.end(), cell);
+      if (seen != way.end()) {
+        host_.erase(*std::min_element(seen, way.end()));
+        return;
+      }
+      way.push_back(cell);
+      cell = host(cell);
+    }
+  }
+  [[nodiscard]] int links(std::ptrdiff_t cell) const {
+    int count = 0;
+    for (; has_host(cell); cell = host(cell)) ++count;
+    return count;
+  }
+
+  std::map<std::ptrdiff_t, std::ptrdiff_t> host_;
+  std::vector<std::ptrdiff_t> order_;
+};
+
+/// Groups of cells that are one volume to dust: each sliver with its host, as far as a group has
+/// less volume than makes a cell none. So a slot is several groups along it.
+class Groups {
+ public:
+  Groups(const Searcher& searcher, const Chains& chains) : searcher_(searcher) {
+    for (const std::ptrdiff_t cell : chains.order()) {
+      const std::size_t group = group_of(chains.host(cell));
+      const bool is_host_open = searcher.share(chains.host(cell)) >= SmallCells::k_small_share;
+      if (is_host_open || all_[group].volume < SmallCells::k_small_share) {
+        join(cell, group);
+      } else {
+        group_of(cell);
+      }
+    }
+    // What is left at the ends of chains goes to the group before.
+    for (std::size_t n = all_.size(); n-- > 0;) {
+      const std::ptrdiff_t first = all_[n].cells.front();
+      if (all_[n].volume >= SmallCells::k_small_share || !chains.has_host(first)) continue;
+      const std::size_t before = group_of(chains.host(first));
+      const std::vector<std::ptrdiff_t> cells = std::move(all_[n].cells);
+      all_[n].cells.clear();
+      for (const std::ptrdiff_t cell : cells) join(cell, before);
+    }
+  }
+  /// The host first, then the others ascending; by their hosts.
+  [[nodiscard]] std::map<std::ptrdiff_t, std::vector<std::ptrdiff_t>> by_host() const {
+    std::map<std::ptrdiff_t, std::vector<std::ptrdiff_t>> found;
+    for (const Group& group : all_) {
+      if (group.cells.size() < 2) continue;
+      std::vector<std::ptrdiff_t> others(group.cells.begin() + 1, group.cells.end());
+      std::sort(others.begin(), others.end());
+      found[group.cells.front()] = std::move(others);
+    }
+    return found;
+  }
+
+ private:
+  struct Group {
+    std::vector<std::ptrdiff_t> cells;
+    double volume = 0.0;  ///< [-] of a whole cell
+  };
+  void join(std::ptrdiff_t cell, std::size_t group) {
+    all_[group].cells.push_back(cell);
+    all_[group].volume += searcher_.share(cell);
+    group_[cell] = group;
+  }
+  /// That of a cell, which may be a new one.
+  std::size_t group_of(std::ptrdiff_t cell) {
+    const auto [at, is_new] = group_.try_emplace(cell, all_.size());
+    if (is_new) {
+      all_.emplace_back();
+      join(cell, all_.size() - 1);
+    }
+    return group_.at(cell);
+  }
+
+  const Searcher& searcher_;
+  std::vector<Group> all_;
+  std::map<std::ptrdiff_t, std::size_t> group_;
+};
+
 }  // namespace
 
 void SmallCells::find(const fluid::Grid& grid, const Flow& flow) {
@@ -79,28 +185,8 @@ void SmallCells::find(const fluid::Grid& grid, const Flow& flow) {
   }
   if (small.empty()) return;
   const Searcher searcher(grid, flow);
-  // A sliver may lie beside another: hosts of hosts, by the lowest of each chain.
-  std::map<std::ptrdiff_t, std::ptrdiff_t> host;
-  for (const std::ptrdiff_t cell : small) {
-    const std::ptrdiff_t found = searcher.host_of(cell);
-    if (found >= 0) host[cell] = found;
-  }
-  const auto root_of = [&](std::ptrdiff_t cell) {
-    std::ptrdiff_t lowest = cell;
-    for (std::size_t n = 0; n <= host.size(); ++n) {
-      const auto next = host.find(cell);
-      if (next == host.end()) return cell;
-      cell = next->second;
-      lowest = n == 0 ? cell : std::min(lowest, cell);
-    }
-    return lowest;  // a ring of slivers
-  };
-  std::map<std::ptrdiff_t, std::vector<std::ptrdiff_t>> groups;
-  for (const auto& [cell, next] : host) {
-    const std::ptrdiff_t root = root_of(cell);
-    if (root != cell) groups[root].push_back(cell);
-  }
-  for (const auto& [root, members] : groups) {
+  const Groups groups(searcher, Chains(searcher, small));
+  for (const auto& [root, members] : groups.by_host()) {
     begin_.push_back(static_cast<std::int32_t>(cell_.size()));
     cell_.push_back(static_cast<std::int32_t>(root));
     for (const std::ptrdiff_t cell : members) cell_.push_back(static_cast<std::int32_t>(cell));

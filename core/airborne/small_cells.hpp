@@ -10,7 +10,8 @@
 namespace dust::airborne {
 
 /// Cells that bodies cut to slivers, each with the neighbour it is most open to: the two are one
-/// volume to dust, which would else cross a sliver many times in a step.
+/// volume to dust, which would else cross a sliver many times in a step. Slivers whose neighbours
+/// are slivers, too, join up until they are none together: a slot is several volumes along it.
 class SmallCells {
  public:
   /// Cells filled by gas to less than this share are slivers.

@@ -172,7 +172,7 @@ double Transport::inflow_at(const Flow& flow, const WallPiece& piece) const {
 /// At walls the gas is at rest, and there is no drift by inertia towards them. A side that holds
 /// grains and lets gas in takes only what settles faster than that.
 void Transport::find_drive(const Flow& flow, const DustClass& dust) {
-  const bool has_inertia = inertia_.gas != nullptr && dust.inertia_time > 0.0;
+  const bool has_inertia = inertia_.gas != nullptr && dust.inertia_time != 0.0;
   if (has_inertia) inertia_.limited.assign(grid_.size, 0.0F);
   for (std::size_t d = 0; d < 3; ++d) {
     const auto n = faces(static_cast<int>(d));

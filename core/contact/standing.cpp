@@ -74,6 +74,7 @@ void clear_separated(const std::uint8_t* is_touching, std::size_t count, std::si
       columns.column(B::force_x + d)[q] = 0.0;
       columns.column(B::torque_i_x + d)[q] = 0.0;
       columns.column(B::torque_j_x + d)[q] = 0.0;
+      columns.column(B::torque_x + d)[q] = 0.0;
     }
     for (std::size_t h = 0; h < stride; ++h) columns.history()[h][q] = 0.0;
   });

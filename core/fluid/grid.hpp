@@ -5,6 +5,7 @@
 #include "dust/sdk/voidage_rule.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -49,6 +50,14 @@ struct Grid {
       if (is_periodic[static_cast<std::size_t>(d)]) lengths[d] = count[d] * spacing[d];
     }
     return lengths;
+  }
+  /// The image of a place that lies between periodic sides.
+  [[nodiscard]] sdk::Vec3 inside(sdk::Vec3 place) const {
+    const sdk::Vec3 length = period();
+    for (int d = 0; d < 3; ++d) {
+      if (length[d] > 0.0) place[d] -= length[d] * std::floor((place[d] - origin[d]) / length[d]);
+    }
+    return place;
   }
   [[nodiscard]] std::ptrdiff_t index(int i, int j, int k) const {
     return i + k_margin + stride[1] * (j + k_halo) + stride[2] * (k + k_halo);

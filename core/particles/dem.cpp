@@ -375,7 +375,8 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 lifetimes.inner_lifetime,
                                 list.due == OuterList::Due::update,
                                 list.updated,
-                                counters.mends};
+                                counters.mends,
+                                list.lifetime};
   archive.integers("state", state);
 }
 
@@ -395,8 +396,10 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   if (state.at(6) != 0) due = OuterList::Due::reorder;
   store.load(archive, state.at(1), state.at(7) != 0);
   const std::size_t tiles = tile_step.load(archive, wall_loads.walls());
-  outer.load(archive, tiles, tuner.outer_lifetime(),
-             {.age = state.at(2), .updated = state.at(17), .due = due});
+  // Checkpoints of before are of runs whose lists had been made with it.
+  const std::int64_t lifetime = state.size() > 19 ? state[19] : tuner.outer_lifetime();
+  outer.load(archive, tiles,
+             {.age = state.at(2), .updated = state.at(17), .lifetime = lifetime, .due = due});
   inner.load(archive, tiles);
   fine_level.load(archive, state.at(10));
   ledger.load(archive);

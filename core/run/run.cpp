@@ -556,6 +556,7 @@ StartFacts start_facts(const Branch& branch, const Simulation& simulation) {
   CountsBefore before = branch.before();
   before.mass = simulation.dem().balance().mass_emitted;
   before.dust = dust_so_far(simulation);
+  before.work = work_so_far(simulation);
   return {.state = branch.origin().state().file().string(),
           .time = branch.origin().time(),
           .particles = branch.report().particles,

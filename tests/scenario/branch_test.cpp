@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -79,6 +80,10 @@ TEST_CASE(
     CHECK(digest(out) == digest(folder / "whole"));
     CHECK(last_row(out) == last_row(folder / "whole"));
     CHECK(json_text(out / "summary.json", "is_same_scenario") == "true");
+    const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
+    const auto first = nlohmann::json::parse(read_file(folder / "first" / "summary.json"));
+    CHECK(summary["start_from"]["particle_steps"] == first["particle_steps"]);
+    CHECK(summary["start_from"]["fluid_steps"] == 14);
   }
   // With a sensor less and another one more: what is there does not know of it.
   const auto other =
@@ -324,7 +329,7 @@ TEST_CASE("an emitter of a branch whose grains would have come before shall be r
   CHECK(refused.status == 2);
   INFO(refused.err);
   CHECK(refused.err.find("emitters.more: its grains come at 0 s, before this run begins at 0.01 s: "
-                         "give it a 'time' from then on") != std::string::npos);
+                         "give it a later 'time'") != std::string::npos);
   CHECK(!fs::exists(folder / "branch"));
   const auto taken = branch(", time: 10 ms");
   INFO(taken.err);
@@ -385,4 +390,35 @@ TEST_CASE("rates and shares of a hood that begins in a branch shall count from t
   CHECK(hood["dust_g_per_tonne"].get<double>() == dust::test::approx(1e6 * dust / load));
   CHECK(hood["share_of_dust"].get<double>() > 0.0);
   CHECK(hood["share_of_dust"].get<double>() < 1.5);  // some of what hung in the air before
+}
+
+TEST_CASE(
+    "grains whose material has another dust load shall carry that, not a share of the old one") {
+  const TemporaryFolder folder;
+  const std::string scenario = DUST_SOURCE "/tests/scenario/dusty_bounce.yaml";
+  REQUIRE(run(folder / "first", "1 ms", {}, "1", scenario).status == 0);
+  const std::string from = "start_from=" + (folder / "first").string();
+  const std::string same = "[0.4 %, 0.6 %]";
+  const auto set_free = [&](const std::string& load) {
+    const auto branch =
+        run(folder / "branch", "8 ms", {from, "materials.ore.dust_load=" + load}, "1", scenario);
+    INFO(branch.err);
+    REQUIRE(branch.status == 0);
+    CHECK((branch.err.find("another dust_load") != std::string::npos) == (load != same));
+    const auto summary = nlohmann::json::parse(read_file(folder / "branch" / "summary.json"));
+    fs::remove_all(folder / "branch");
+    double sum = 0.0;
+    for (const auto& one : summary["dust_on_grains"]["classes"]) {
+      sum += one["set_free_kg"].get<double>();
+    }
+    return sum;
+  };
+  // m0 (1 - exp(-E / (m0 e_b))) of each class, and of both together: the exponent of half the load
+  // is twice that of the whole.
+  const double whole = set_free(same);
+  const double half = set_free("[0.2 %, 0.3 %]");
+  const double load = 0.01 * 3000.0 * std::numbers::pi / 6.0 * std::pow(6e-3, 3);
+  CHECK(whole > 0.1 * load);
+  CHECK(half ==
+        dust::test::approx(0.5 * load * (1.0 - std::pow(1.0 - whole / load, 2))).epsilon(1e-6));
 }

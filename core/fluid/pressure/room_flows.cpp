@@ -74,7 +74,7 @@ std::string RoomFlows::message(std::size_t room) const {
   if (is_whole) {
     std::snprintf(text, sizeof text,
                   "the sides%s let %.4g m3/s more air in than out and none of them gives way; make "
-                  "one a total_pressure or zero_gradient side",
+                  "one a total_pressure, static_pressure or zero_gradient side",
                   r.moved > 0.0 || r.has_sink ? " and bodies" : "", r.net);
     return text;
   }

@@ -185,8 +185,10 @@ void SubCycle::derive_walls(const Surface& surface) {
   derive_wall_columns(surface, time_, sub_step_, count_, columns_);
   if (!scene_.wall_loads.is_on()) return;
   for (std::size_t q = 0; q < count_; ++q) {
-    if (!is_new_[q]) continue;
-    const SubCycledParticle& i = particle(*in_batch_[q]);
+    const CandidateContact& c = *in_batch_[q];
+    const bool is_new = scene_.law(c.law).range > 0.0 ? has_struck(columns_, q) : is_new_[q];
+    if (!is_new) continue;
+    const SubCycledParticle& i = particle(c);
     block_.wall_impacts.push_back(impact_of(surface.wall, 1.0 / i.inverse_mass, i.weight,
                                             get(B::velocity_x, q), get(B::normal_x, q)));
   }

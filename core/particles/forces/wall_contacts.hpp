@@ -88,6 +88,19 @@ inline void put_at_wall(const GrainAtWall& g, const bodies::SurfacePoint& near, 
 void derive_wall_columns(const Surface& surface, double time, double since, std::size_t count,
                          contact::BatchColumns& columns);
 
+/// Whether a grain has begun to touch the wall since the last look, by what derive_wall_columns has
+/// derived: laws that reach farther look at it before.
+inline bool has_struck(contact::BatchColumns& columns, std::size_t q) {
+  using B = contact::BatchColumns;
+  constexpr double k_rounding = 1e-9;
+  const double overlap = columns.column(B::overlap)[q];
+  double parting = 0.0;  // [m] since the last look, or since the touch
+  for (int d = 0; d < 3; ++d) {
+    parting += columns.column(B::displacement_x + d)[q] * columns.column(B::normal_x + d)[q];
+  }
+  return overlap > 0.0 && overlap + parting <= k_rounding * overlap;
+}
+
 /// The power [W] that a surface puts into contact q, per real particle, once the laws have been
 /// asked: force times velocity and, where it turns, rolling couple times angular velocity.
 inline double wall_power(const Surface& surface, bool has_couple, std::size_t q,

@@ -119,6 +119,7 @@ struct ContactForces::WallBatch {
     if (count == 0) return;
     const int groups = static_cast<int>(list.history_stride / 4);
     derive_wall_columns(surface, scene.time, scene.step, count, columns);
+    for (std::size_t q = 0; law.range > 0.0 && q < count; ++q) is_new[q] = has_struck(columns, q);
     contact::load_history(list, contacts, count, groups, columns);
     if (tile.energy != nullptr) thread_motion().take_walls(columns, count, surface.is_turning);
     evaluate_laws(law, columns, count, scene.step);

@@ -300,7 +300,8 @@ void InnerList::load(sdk::ArchiveReader& archive, std::size_t tiles) {
   FlatLists pairs(archive, "pairs");
   FlatLists walls(archive, "surfaces");
   FlatLists fines(archive, "fine");
-  set_tiles(tiles);
+  // What has come from another run stands in one list until the rows are put in order.
+  set_tiles(std::max(tiles, pairs.count()));
   for (OfTile& t : tiles_) {
     pairs.take(t.contacts.pairs, stride_);
     walls.take(t.contacts.walls, stride_);

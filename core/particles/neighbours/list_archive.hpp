@@ -22,6 +22,8 @@ class FlatLists {
   void add(const ContactList& list);
   void add(const PairList& list);
   void save(sdk::ArchiveWriter& archive, const std::string& name) const;
+  /// How many lists.
+  [[nodiscard]] std::size_t count() const { return sizes_.size() / 2; }
 
   /// The next list in the order in which they were added.
   void take(ContactList& list, std::size_t history_stride);

@@ -160,8 +160,7 @@ void OuterList::save(sdk::ArchiveWriter& archive) const {
   fines.save(archive, "near_fine");
 }
 
-void OuterList::load(sdk::ArchiveReader& archive, std::size_t tiles, std::int64_t lifetime,
-                     State state) {
+void OuterList::load(sdk::ArchiveReader& archive, std::size_t tiles, State state) {
   trajectories_.load(archive);
   FlatLists pairs(archive, "near_pairs");
   FlatLists walls(archive, "near_surfaces");
@@ -172,7 +171,7 @@ void OuterList::load(sdk::ArchiveReader& archive, std::size_t tiles, std::int64_
     walls.take(t.walls);
   }
   fines.take(fine_);
-  lifetime_ = lifetime;
+  lifetime_ = state.lifetime;
   age_ = state.age;
   updated_ = state.updated;
   due_ = state.due;

@@ -69,11 +69,12 @@ class OuterList {
   struct State {
     std::int64_t age = 0;
     std::int64_t updated = 0;
+    std::int64_t lifetime = 0;
     Due due = Due::reorder;
   };
-  [[nodiscard]] State state() const { return {age_, updated_, due_}; }
+  [[nodiscard]] State state() const { return {age_, updated_, lifetime_, due_}; }
   void save(sdk::ArchiveWriter& archive) const;
-  void load(sdk::ArchiveReader& archive, std::size_t tiles, std::int64_t lifetime, State state);
+  void load(sdk::ArchiveReader& archive, std::size_t tiles, State state);
 
  private:
   struct OfTile {

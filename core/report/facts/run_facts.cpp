@@ -112,11 +112,18 @@ json cost_json(const RunText& run) {
   std::vector<Cost> costs = costs_of(timers, groups);
   if (!wall && costs.empty()) return nullptr;
   const auto dem_time = particle_seconds(timers, groups);
-  const auto steps = number_at(run.summary, "particle_steps");
-  return {{"wall_per_simulated", ratio(wall, number_at(run.summary, "simulated_s"))},
+  // Of a branch what it has done itself.
+  const json& start = object_at(run.summary, "start_from");
+  const auto own = [&](const char* name, const char* before) {
+    auto all = number_at(run.summary, name);
+    if (all) *all -= number_at(start, before).value_or(0.0);
+    return all;
+  };
+  const auto steps = own("particle_steps", "particle_steps");
+  return {{"wall_per_simulated", ratio(wall, own("simulated_s", "time_s"))},
           {"grain_steps_per_dem_second", ratio(steps, dem_time)},
           {"grain_steps_per_second", ratio(steps, wall)},
-          {"air_step_s", ratio(number_at(timers, "fluid"), number_at(run.summary, "fluid_steps"))},
+          {"air_step_s", ratio(number_at(timers, "fluid"), own("fluid_steps", "fluid_steps"))},
           {"processors_busy", ratio(number_at(run.summary, "cpu_s"), wall)},
           {"nodes", nodes_json(std::move(costs), wall.value_or(0.0))}};
 }

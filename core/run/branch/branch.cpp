@@ -221,12 +221,15 @@ void Branch::check_emitters(const Models& models) {
     const scenario::EmitterSpec& spec = now_.setup.emitters[n];
     if (base::find_named(origin_.scenario().setup.emitters, spec.name) != nullptr) continue;
     const sdk::EmitterRequest request = models.emitters[n]->request();
-    const bool comes_at_once = request.mass > 0.0 || request.count > 0;
-    if (!comes_at_once || request.begin >= origin_.time() * (1.0 - 1e-9)) continue;
-    diagnostics_.error(spec.model.where,
-                       spec.model.path + ": its grains come at " + seconds(request.begin) +
-                           ", before this run begins at " + seconds(origin_.time()) +
-                           ": give it a 'time' from then on");
+    const bool is_stream = request.mass_flow > 0.0;
+    if (!is_stream && !(request.mass > 0.0) && request.count == 0) continue;
+    const double last = is_stream ? request.end : request.begin;
+    if (last >= origin_.time() * (1.0 - 1e-9)) continue;
+    diagnostics_.error(spec.model.where, spec.model.path + ": its grains come " +
+                                             (is_stream ? "until " : "at ") + seconds(last) +
+                                             ", before this run begins at " +
+                                             seconds(origin_.time()) + ": give it a later " +
+                                             (is_stream ? "'end'" : "'time'"));
   }
 }
 
@@ -376,8 +379,7 @@ void Branch::transfer_particles(const Simulation::Owners& to) {
     return;
   }
   const auto transfers = laws();
-  report_ = to.particles.transfer_from(their_particles(), origin_.time(), transfers,
-                                       same("dust.field.classes"));
+  report_ = to.particles.transfer_from(their_particles(), origin_.time(), transfers, keeps_loads());
   if (report_.without_past == 0) return;
   warn(std::to_string(report_.without_past) + " of " + std::to_string(report_.contacts) +
        " contacts begin anew, without the springs of before: their laws keep other numbers");
@@ -515,10 +517,27 @@ void Branch::transfer_dust(const Simulation::Owners& to) {
   }
 }
 
+bool Branch::keeps_loads() const {
+  if (!same("dust.field.classes")) return false;
+  const auto share_of = [](const scenario::ReadResult& read, std::size_t material) {
+    const auto& loads = read.dust.loads;
+    return material < loads.size() ? loads[material].share : std::vector<double>{};
+  };
+  const auto& there = origin_.scenario();
+  for (std::size_t n = 0; n < there.setup.materials.size(); ++n) {
+    const int here = base::number_of(now_.setup.materials, there.setup.materials[n].name);
+    if (here < 0) continue;
+    if (share_of(now_, static_cast<std::size_t>(here)) != share_of(there, n)) return false;
+  }
+  return true;
+}
+
 /// What came off so far, by the names of its causes.
 void Branch::transfer_liberation(const Simulation::Owners& to) {
-  if (!origin_.state().has("liberation", "set_free") || !same("dust.field.classes")) {
-    warn("grains carried no dust, or dust of other classes: they carry what materials say");
+  if (!origin_.state().has("liberation", "set_free") || !keeps_loads()) {
+    warn(
+        "grains carried no dust, or dust of other classes, or their materials have another "
+        "dust_load: they carry what materials say");
     before_.are_loads_new = true;
     return;
   }

@@ -73,6 +73,8 @@ class Branch {
   [[nodiscard]] bool same(std::string_view path,
                           std::span<const std::string_view> ignored = {}) const;
   [[nodiscard]] bool is_same_grid() const;
+  /// Whether grains keep the dust that they carry: what they came with is that of their materials.
+  [[nodiscard]] bool keeps_loads() const;
   void error(const std::string& text) { diagnostics_.error(start().where, "start_from: " + text); }
   void warn(const std::string& text) { diagnostics_.warning(start().where, "start_from: " + text); }
   [[nodiscard]] const scenario::StartSpec& start() const { return *now_.start.from; }

@@ -55,13 +55,14 @@ StartFacts load_start(sdk::ArchiveReader& archive) {
 
 CountsBefore load_before(sdk::ArchiveReader& archive) {
   const auto numbers = archive.numbers(k_before);
-  const auto flags = archive.integers("is_new");
+  const auto counts = archive.integers("before_counts");
   return {.mass = numbers.at(0),
           .dust = numbers.at(1),
           .new_hoods = texts_of(archive.integers("new_hoods")),
           .new_emitters = texts_of(archive.integers("new_emitters")),
-          .is_field_new = flags.at(0) != 0,
-          .are_loads_new = flags.at(1) != 0};
+          .is_field_new = counts.at(0) != 0,
+          .are_loads_new = counts.at(1) != 0,
+          .work = {counts.at(2), counts.at(3), counts.at(4), counts.at(5), counts.at(6)}};
 }
 
 }  // namespace
@@ -78,9 +79,16 @@ void save_past(const Past& past, sdk::ArchiveWriter& archive) {
   archive.integers("sensors", letters_of(start.sensors));
   const CountsBefore& before = start.before;
   const double numbers[] = {before.mass, before.dust};
-  const std::int64_t flags[] = {before.is_field_new ? 1 : 0, before.are_loads_new ? 1 : 0};
+  const CountsBefore::Work& work = before.work;
+  const std::int64_t before_counts[] = {before.is_field_new ? 1 : 0,
+                                        before.are_loads_new ? 1 : 0,
+                                        work.particle_steps,
+                                        work.fine_steps,
+                                        work.steps,
+                                        work.fluid_sub_steps,
+                                        work.dust_sub_steps};
   archive.numbers(k_before, numbers);
-  archive.integers("is_new", flags);
+  archive.integers("before_counts", before_counts);
   archive.integers("new_hoods", letters_of(before.new_hoods));
   archive.integers("new_emitters", letters_of(before.new_emitters));
 }

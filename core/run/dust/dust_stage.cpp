@@ -330,9 +330,11 @@ void DustStage::advance(double time) {
   field_.advance(flow_, time, setup_.time.fluid_step);
 }
 
-/// The one that is nearest for a place beyond the grid.
+/// The one that is nearest for a place beyond the grid; grains are put back at periodic sides now
+/// and then only.
 std::array<int, 3> DustStage::cell_at(sdk::Vec3 place) const {
   const Grid& grid = fluid_.grid();
+  place = grid.inside(place);
   std::array<int, 3> at{};
   for (int d = 0; d < 3; ++d) {
     const auto n = static_cast<std::size_t>(d);

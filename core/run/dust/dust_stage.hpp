@@ -46,6 +46,8 @@ class DustStage {
   [[nodiscard]] std::int32_t cell_with_gas(sdk::Vec3 place) const;
   /// [-] of the cell at a place that a grain takes.
   [[nodiscard]] double void_fraction_at(sdk::Vec3 place) const;
+  /// The image of a place that lies between periodic sides.
+  [[nodiscard]] sdk::Vec3 inside(sdk::Vec3 place) const { return fluid_.grid().inside(place); }
   /// [m/s] mean over the faces of a cell.
   [[nodiscard]] sdk::Vec3 gas_velocity(std::int32_t cell) const;
   /// [m3] of gas in a cell.

@@ -61,7 +61,8 @@ double LiberationStage::coarse_graining(std::size_t row) const {
   return coarse_graining_[static_cast<std::size_t>(particles_.rows().material[row])];
 }
 
-bool LiberationStage::is_in_feed_zone(const double* x) const {
+bool LiberationStage::is_in_feed_zone(const double* position) const {
+  const sdk::Vec3 x = dust_.inside({position[0], position[1], position[2]});
   return std::any_of(feed_zones_.begin(), feed_zones_.end(), [&](const scenario::FeedZoneSpec& z) {
     return x[0] >= z.min.x && x[0] <= z.max.x && x[1] >= z.min.y && x[1] <= z.max.y &&
            x[2] >= z.min.z && x[2] <= z.max.z;

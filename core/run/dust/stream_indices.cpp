@@ -45,7 +45,8 @@ void StreamIndices::find_grains() {
   const particles::GrainRows grains = particles_.rows();
   const double layer = grid.spacing[axis_];
   for (std::size_t row = 0; row < grains.count; ++row) {
-    const double* x = grains.position + 4 * row;
+    const double* position = grains.position + 4 * row;
+    const sdk::Vec3 x = grid.inside({position[0], position[1], position[2]});
     const double* v = grains.velocity_of(row);
     const double speed = down_ * v[axis_];
     const double level = std::floor((x[axis_] - grid.origin[axis_]) / layer);
@@ -53,7 +54,7 @@ void StreamIndices::find_grains() {
     const double flow = grains.weight[row] / v[3] * speed / layer;
     const auto n = static_cast<std::size_t>(level);
     now_[column(n, mass_flow)] += flow;
-    now_[column(n, solids_flow)] += flow * (1.0 - dust_.void_fraction_at({x[0], x[1], x[2]}));
+    now_[column(n, solids_flow)] += flow * (1.0 - dust_.void_fraction_at(x));
   }
 }
 

@@ -218,7 +218,9 @@ Json run_json(const Simulation& s, const RunFacts& facts) {
                        {"grains", facts.start->particles},
                        {"contacts", facts.start->contacts},
                        {"contacts_without_past", facts.start->without_past},
-                       {"is_same_scenario", facts.start->is_same}};
+                       {"is_same_scenario", facts.start->is_same},
+                       {"particle_steps", facts.start->before.work.particle_steps},
+                       {"fluid_steps", facts.start->before.work.steps}};
   }
   j["threads"] = facts.threads;
   j["wall_s"] = facts.wall_s;

@@ -8,6 +8,7 @@
 #include "setup/reference_curve.hpp"
 #include "setup/reference_spec.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,6 +25,12 @@ struct CountsBefore {
   std::vector<std::string> new_hoods, new_emitters;
   bool is_field_new = false;
   bool are_loads_new = false;
+  /// Work that another run has done and that counters hold which go on.
+  struct Work {
+    std::int64_t particle_steps = 0, fine_steps = 0;
+    std::int64_t steps = 0, fluid_sub_steps = 0, dust_sub_steps = 0;
+  };
+  Work work = {};
 };
 
 /// The state that a run started from.

@@ -47,6 +47,15 @@ double cell_count(const Simulation& s) {
 
 }  // namespace
 
+CountsBefore::Work work_so_far(const Simulation& s) {
+  const auto dem = s.dem().report();
+  return {.particle_steps = dem.particle_steps,
+          .fine_steps = dem.fine_steps,
+          .steps = s.steps_done(),
+          .fluid_sub_steps = s.fluid() != nullptr ? s.fluid_stage()->sub_steps() : 0,
+          .dust_sub_steps = s.dust_stage() != nullptr ? s.dust_stage()->field().sub_steps() : 0};
+}
+
 preflight::RunCost taken_cost(const Simulation& s, const RunFacts& facts, const fs::path& folder) {
   preflight::RunCost cost;
   const auto nodes = node_timings(s);
@@ -61,22 +70,23 @@ preflight::RunCost taken_cost(const Simulation& s, const RunFacts& facts, const 
   const double processors = sum > 0.0 ? facts.cpu_s / sum : 0.0;
   for (std::size_t n = 0; n < preflight::k_cost_terms; ++n) cost.terms[n].seconds *= processors;
 
-  const auto dem = s.dem().report();
-  const double begin = facts.start ? facts.start->time : 0.0;
-  const double steps =
-      static_cast<double>(s.steps_done()) - std::round(begin / s.setup().time.fluid_step);
+  const CountsBefore::Work now = work_so_far(s);
+  const CountsBefore::Work before = facts.start ? facts.start->before.work : CountsBefore::Work{};
+  const auto steps = static_cast<double>(now.steps - before.steps);
   const double cells = cell_count(s);
-  const auto grain_steps = static_cast<double>(dem.particle_steps);
+  const auto grain_steps = static_cast<double>(now.particle_steps - before.particle_steps);
   cost.terms[CostTerm::grains].amount = grain_steps;
-  cost.terms[CostTerm::fine_grains].amount = static_cast<double>(dem.fine_steps);
+  cost.terms[CostTerm::fine_grains].amount =
+      static_cast<double>(now.fine_steps - before.fine_steps);
   if (s.fluid() != nullptr) {
-    cost.terms[CostTerm::fluid].amount = cells * static_cast<double>(s.fluid_stage()->sub_steps());
+    cost.terms[CostTerm::fluid].amount =
+        cells * static_cast<double>(now.fluid_sub_steps - before.fluid_sub_steps);
     cost.terms[CostTerm::exchange].amount =
         grain_steps * s.dem().coarse_step() / s.setup().time.fluid_step + cells * steps;
   }
   if (s.dust_stage() != nullptr) {
     cost.terms[CostTerm::dust].amount =
-        cells * static_cast<double>(s.dust_stage()->field().sub_steps());
+        cells * static_cast<double>(now.dust_sub_steps - before.dust_sub_steps);
   }
   cost.terms[CostTerm::output].amount = static_cast<double>(facts.frames);
   cost.terms[CostTerm::rest].amount = steps;

@@ -8,8 +8,12 @@
 
 namespace dust::run {
 
-/// What a run has taken, in the terms in which an estimate tells it. Timers of nodes hold wall
-/// time: the processor time of the run is shared out in their proportion. `folder` is measured.
+/// What counters of work hold now.
+CountsBefore::Work work_so_far(const Simulation& s);
+
+/// What a run has taken, of a branch itself, in the terms in which an estimate tells it. Timers of
+/// nodes hold wall time: the processor time of the run is shared out in their proportion. `folder`
+/// is measured.
 preflight::RunCost taken_cost(const Simulation& simulation, const RunFacts& facts,
                               const std::filesystem::path& folder);
 

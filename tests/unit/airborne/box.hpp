@@ -105,7 +105,7 @@ class Box {
   /// in which the drift was limited.
   double run_with_inertia(double end, int steps, const std::function<void(int)>& change = {}) {
     Transport transport(grid_);
-    GasAcceleration acceleration(grid_, dust_.inertia_time);
+    GasAcceleration acceleration(grid_, std::abs(dust_.inertia_time));
     losses_.outlets.resize(2, 0.0);
     double limited = 0.0;
     for (int n = 0; n < steps; ++n) {

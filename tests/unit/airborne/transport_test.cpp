@@ -209,3 +209,26 @@ TEST_CASE("gas that fills up with solids shall press its dust out without loss")
     CHECK(box.mass()[cell] / box.flow().volume_after[cell] == test::approx(1e-3).epsilon(1e-12));
   });
 }
+
+TEST_CASE("dust shall stay where it is in a slot of slivers, not be mixed along all of it") {
+  for (const bool is_at_end : {true, false}) {
+    Box box({20, 1, 1}, {0.2, 0.01, 0.01}, {false, true, true});
+    for (auto* volume : {&box.flow().volume_before, &box.flow().volume_after}) {
+      std::fill(volume->begin(), volume->end(), 0.2);
+    }
+    auto& passage = box.flow().passage.component[0];
+    std::fill(passage.begin(), passage.end(), 0.2);
+    const double place = is_at_end ? 0.195 : 0.005;
+    box.set_mass([&](Vec3 x) { return std::abs(x.x - place) < 1e-6 ? 1.0 : 0.0; });
+    box.run(1.0, 10);
+    double near = 0.0;
+    box.each_cell([&](std::size_t cell, Vec3 x) {
+      if (std::abs(x.x - place) > 0.025) {
+        CHECK(box.mass()[cell] == 0.0);
+      } else {
+        near += box.mass()[cell];
+      }
+    });
+    CHECK(near == test::approx(0.2).epsilon(1e-12));
+  }
+}

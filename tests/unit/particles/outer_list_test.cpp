@@ -150,7 +150,7 @@ TEST_CASE("a saved outer list shall be loaded as it was") {
   dust::test::MemoryArchive archive;
   outer.save(archive);
   OuterList loaded;
-  loaded.load(archive, outer.tiles(), tuner.outer_lifetime(), outer.state());
+  loaded.load(archive, outer.tiles(), outer.state());
   const auto digest = [](const OuterList& list) {
     dust::base::Digest d;
     list.add_to(d);

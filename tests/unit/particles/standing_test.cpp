@@ -74,9 +74,9 @@ TEST_CASE("a pair that has parted shall feel nothing and remember nothing") {
   for (std::size_t q = 0; q < k_count; ++q) {
     CAPTURE(q);
     const bool has_touched = is_touching[q] != 0;
-    for (const int c :
-         {BatchColumns::overlap, BatchColumns::velocity_y, BatchColumns::force_x,
-          BatchColumns::force_z, BatchColumns::torque_i_y, BatchColumns::torque_j_z}) {
+    for (const int c : {BatchColumns::overlap, BatchColumns::velocity_y, BatchColumns::force_x,
+                        BatchColumns::force_z, BatchColumns::torque_i_y, BatchColumns::torque_j_z,
+                        BatchColumns::torque_y}) {
       CHECK(columns.column(c)[q] == (has_touched ? 7.0 : 0.0));
     }
     for (std::size_t h = 0; h < k_stride; ++h) {

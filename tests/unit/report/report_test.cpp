@@ -88,6 +88,15 @@ TEST_CASE("report.json shall hold the numbers of the summary and what is made of
   CHECK(page_data(page_of(folder)) == document);
 }
 
+TEST_CASE("the speed of a branch shall be that of its own steps") {
+  const RunFolder folder;
+  json summary = fake_summary();
+  summary["start_from"] = {{"time_s", 0.5}, {"particle_steps", 487654}, {"fluid_steps", 100}};
+  folder.write("summary.json", summary.dump());
+  const json cost = page_data(page_of(folder))["cost"];
+  CHECK(cost["grain_steps_per_dem_second"].get<double>() == approx(500000 / 60.0));
+}
+
 TEST_CASE("an open balance shall be called open") {
   const RunFolder folder;
   json summary = fake_summary();

@@ -166,3 +166,31 @@ TEST_CASE("a turning drum shall spend its torque times its spin, rolling couples
   // The contact point is half an overlap within the drum's face.
   CHECK(walls.power[0] == approx(-k_spin * walls.torque[0].y).epsilon(1e-3));
 }
+
+TEST_CASE("a law that reaches farther than the touch shall make no impacts, nor hide any") {
+  // Between an oily film, too thin to be felt, and the wall: it is looked at from 0.5 mm on.
+  const auto impacts_of = [](Vec3 position, Vec3 velocity, double gravity, double duration) {
+    WallRig rig(0.6, 0.3, k_diameter);
+    rig.laws.clear();
+    rig.laws_of(rig.sand, rig.sand, {"hertz_mindlin", {{"restitution", 0.6}, {"friction", 0.3}}},
+                {}, {"lubrication", {{"viscosity", 1e-12}}});
+    rig.setup.gravity = {0, 0, -gravity};
+    rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}});
+    auto dem = rig.make();
+    dem->record_wall_loads();
+    dem->insert(std::vector<NewGrain>{
+        {.position = position, .velocity = velocity, .diameter = k_diameter}});
+    Stepper stepper(*dem);
+    while (stepper.time() < duration) stepper.step();
+    const auto walls = dem->close_wall_loads(stepper.time());
+    return std::vector(walls.impacts.begin(), walls.impacts.end());
+  };
+  // By 0.1 mm over it.
+  CHECK(impacts_of({0, 0, 6e-4}, {2, 0, 0}, 0.0, 2e-3).empty());
+  // From 0.2 mm: after 6.4 ms at 63 mm/s, then 0.6 times as fast each time, after 7.7 and 4.6 ms.
+  const auto impacts = impacts_of({0, 0, 7e-4}, {}, k_g, 20e-3);
+  REQUIRE(impacts.size() == 3);
+  const double fall = 2650 * std::numbers::pi / 6 * std::pow(k_diameter, 3) * k_g * 2e-4;
+  CHECK(impacts[0].normal_energy == approx(fall).epsilon(0.01));
+  CHECK(impacts[1].normal_energy == approx(0.36 * fall).epsilon(0.05));
+}
