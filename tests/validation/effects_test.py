@@ -160,6 +160,10 @@ class Lines(unittest.TestCase):
                          self.parts(begin + "not enough points finished (2 of 4 points are missing)")[3:])
         self.assertIsNone(study_runs.verdict_of("4 points, 4 finished"))
 
+    def test_numbers_are_rounded_and_a_hash_is_not(self):
+        for shown, text in (("0.00043399", "0.00043398912345"), ("finished", "finished"), ("9e32198066326825", "9e32198066326825")):
+            self.assertEqual(shown, study_runs.rounded(text))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -65,7 +65,9 @@ def run(args, *more, allowed=(0,)):
 
 
 def rounded(text):
-    """Numbers to five digits; anything else as it is."""
+    """Numbers to five digits; anything else as it is, so also a hash of digits with one e."""
+    if re.fullmatch("[0-9a-f]{16}", text):
+        return text
     try:
         return f"{float(text):.5g}"
     except ValueError:
