@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -85,15 +86,15 @@ class Chains {
   /// Slivers that are each other's hosts all round: the lowest of them is theirs.
   void open_ring(std::ptrdiff_t cell) {
     std::vector<std::ptrdiff_t> way;
-    while (has_host(cell)) {
+    for (; has_host(cell) && !is_open_.contains(cell); cell = host(cell)) {
       const auto seen = std::find(way.begin(), way.end(), cell);
       if (seen != way.end()) {
         host_.erase(*std::min_element(seen, way.end()));
-        return;
+        break;
       }
       way.push_back(cell);
-      cell = host(cell);
     }
+    is_open_.insert(way.begin(), way.end());
   }
   [[nodiscard]] int links(std::ptrdiff_t cell) const {
     int count = 0;
@@ -102,6 +103,7 @@ class Chains {
   }
 
   std::map<std::ptrdiff_t, std::ptrdiff_t> host_;
+  std::set<std::ptrdiff_t> is_open_;  ///< their chains end
   std::vector<std::ptrdiff_t> order_;
 };
 

@@ -43,9 +43,6 @@ class GeometryBuilder {
   void measure_faces(int d);
   /// Is a surface so near to the face's cells that something may lie between them?
   [[nodiscard]] bool is_near(int d, const std::array<int, 3>& c, std::ptrdiff_t o) const;
-  /// Cells whose points in the fluid have a thin body between them have nothing to do with each
-  /// other. A way through the grid from one side of the body to the other crosses it somewhere, and
-  /// there it meets such a face: nothing leaks.
   /// From a face towards its neighbour: what lies between them.
   struct Neighbour {
     sdk::Vec3 from, there;
@@ -59,6 +56,9 @@ class GeometryBuilder {
     bool is_at_end = false;       ///< the neighbour is beyond a periodic side
   };
   [[nodiscard]] Neighbour look(sdk::Vec3 from, int dir, int side, LookAt at) const;
+  /// Cells whose points in the fluid have a thin body between them have nothing to do with each
+  /// other. A way through the grid from one side of the body to the other crosses it somewhere, and
+  /// there it meets such a face: nothing leaks.
   void find_blocked(int d);
   bool add_blocked(int d, const std::array<int, 3>& c, Vec3 lower, Vec3 upper);
   [[nodiscard]] BlockedFace blocked_face(int d, const std::array<int, 3>& c, Vec3 from, Vec3 to,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flows through sides and into bodies that are given over time: what has passed is their integral.
+#include "crossing_cylinder.hpp"
 #include "fluid_case.hpp"
 #include "support/approx.hpp"
 #include "test_bodies.hpp"
@@ -196,17 +197,9 @@ TEST_CASE("what has passed shall be the integral of the flow also where the grid
 TEST_CASE(
     "the divergence of a step of several cuts shall be told of its end, also of ramped flows") {
   const double step = 2e-3;
-  Case c;
-  c.max = {0.06, 0.005, 0.06};
-  c.cells = {24, 1, 24};
-  c.fluid.density = 1.2;
-  c.fluid.viscosity = 1.8e-5;
+  Case c = crossing_cylinder(step);
   c.fluid.pressure_tolerance = 1e-11;
-  for (auto& s : c.sides) s = slip();
   c.sides[4]->velocity = [](Vec3, double t) { return Vec3{0, 0, 100.0 * t}; };
-  c.sides[5] = open_side(0.0, false);
-  c.bodies.push_back(moving(std::make_unique<Cylinder>(Vec3{0.0203, 0, 0.0311}, 0.008, false),
-                            Shift::steady({1.3 * 0.0025 / step, 0, 0})));
   c.start();
   for (int n = 0; n < 3; ++n) {
     c.advance(step);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies that move through the grid: what they shove is known.
+#include "crossing_cylinder.hpp"
 #include "dust/sdk/error.hpp"
 #include "fluid_case.hpp"
 #include "support/approx.hpp"
@@ -96,19 +97,8 @@ TEST_CASE("a room that a piston shrinks shall be refused, one that moves as a wh
 
 TEST_CASE(
     "what passes the faces in a step of several cuts shall close up to the change of volume") {
-  // A cylinder of 16 mm goes 1.3 cells a step: three cuts.
-  Case c;
-  c.max = {0.06, 0.005, 0.06};
-  c.cells = {24, 1, 24};
-  c.fluid.density = 1.2;
-  c.fluid.viscosity = 1.8e-5;
-  c.fluid.pressure_tolerance = 1e-10;
-  for (auto& s : c.sides) s = slip();
-  c.sides[5] = open_side(0.0, false);
   const double step = 2e-3;
-  const double speed = 1.3 * 0.0025 / step;
-  c.bodies.push_back(moving(std::make_unique<Cylinder>(Vec3{0.0203, 0, 0.0311}, 0.008, false),
-                            Shift::steady({speed, 0, 0})));
+  Case c = crossing_cylinder(step);
   c.start();
   fluid::FaceField flow(c.grid);
   double worst = 0.0;
@@ -325,19 +315,10 @@ TEST_CASE("a body that shrinks a closed room shall be refused with the reason") 
 
 TEST_CASE(
     "what a moving opening draws off in a step of several cuts shall be missing where it was") {
-  // The cylinder of above with an opening in front: 1.3 cells a step, three cuts.
-  Case c;
-  c.max = {0.06, 0.005, 0.06};
-  c.cells = {24, 1, 24};
-  c.fluid.density = 1.2;
-  c.fluid.viscosity = 1.8e-5;
-  c.fluid.pressure_tolerance = 1e-10;
-  for (auto& s : c.sides) s = slip();
-  c.sides[5] = open_side(0.0, false);
+  // An opening in front of the cylinder.
   const double step = 2e-3;
   const double flow = 2e-5;
-  c.bodies.push_back(moving(std::make_unique<Cylinder>(Vec3{0.0203, 0, 0.0311}, 0.008, false),
-                            Shift::steady({1.3 * 0.0025 / step, 0, 0})));
+  Case c = crossing_cylinder(step);
   c.bodies.back().suction =
       scenario::SuctionSpec{flow, {0.0233, -1.0, 0.0}, {0.03, 1.0, 0.06}, {}, {}};
   c.start();
