@@ -40,6 +40,7 @@ void Clusters::find(const FineScene& scene) {
   for (const std::int32_t particle : scene.active) fine_[scene.fine_index(particle)] = {};
   predict_others(scene);
   join_near_others(scene);
+  join_knocked(scene);
   unite_by_light_partners(scene);
   unite_fine_pairs(scene);
   list_coarse_partners(scene);
@@ -88,8 +89,30 @@ void Clusters::join_near_others(const FineScene& scene) {
     const auto n = static_cast<std::int32_t>(scene.fine_index(contacts.a[e]));
     join(n, prediction_[e], contacts.is_touching[e]);
     at(n).speed = std::max(at(n).speed, prediction_[e].speed);
-    if (!scene.is_coarse(b) || is_heavy(scene.particles, b, contacts.a[e])) continue;
-    host_[static_cast<std::size_t>(b)] = n;
+    note_host(scene, e);
+  }
+}
+
+/// A light coarse partner has a cluster of its own.
+void Clusters::note_host(const FineScene& scene, std::size_t entry) {
+  const std::int32_t a = scene.contacts.a[entry];
+  const std::int32_t b = scene.contacts.b[entry];
+  if (!scene.is_coarse(b) || is_heavy(scene.particles, b, a)) return;
+  host_[static_cast<std::size_t>(b)] = static_cast<std::int32_t>(scene.fine_index(a));
+}
+
+/// One that meets a partner within this step may be knocked to another: it leaves the first with up
+/// to twice the speed that they meet with.
+void Clusters::join_knocked(const FineScene& scene) {
+  const contact::PairView& contacts = scene.contacts;
+  for (std::size_t e = 0; e < contacts.count; ++e) {
+    if (scene.is_fine(contacts.b[e]) || is_near(e)) continue;
+    const auto n = static_cast<std::int32_t>(scene.fine_index(contacts.a[e]));
+    if (at(n).cluster < 0) continue;
+    prediction_[e] = predict_contact(scene, e, 2.0 * at(n).speed);
+    if (!is_near(e)) continue;
+    join(n, prediction_[e], contacts.is_touching[e]);
+    note_host(scene, e);
   }
 }
 

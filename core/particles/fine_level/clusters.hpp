@@ -46,6 +46,8 @@ class Clusters {
 
   void predict_others(const FineScene& scene);
   void join_near_others(const FineScene& scene);
+  void join_knocked(const FineScene& scene);
+  void note_host(const FineScene& scene, std::size_t entry);
   void unite_by_light_partners(const FineScene& scene);
   void unite_fine_pairs(const FineScene& scene);
   void list_coarse_partners(const FineScene& scene);

@@ -250,6 +250,17 @@ HOURGLASSES = (
     ("the same, 50 MPa in place of 5", Plan("hourglass_small_stiff", "thesis/hourglass_5mm.yaml", {**SMALL_HOURGLASS, "materials.sand.young_modulus": "50 MPa"})),
     *of_study(hourglass_friction.SMALL, *((f"friction {mu_s}, rolling {mu_r}", f"{mu_s} {mu_r}") for mu_s in (0.4, 0.6) for mu_r in (0.2, 0.4))))
 
+
+def poured_pile(name, travels=(6, 2), pace=1.0, settings=None):
+    """A quarter of the funnel's sand. It rises by so many mm in two goes: by the thesis's slope the heap's tip is 8 mm high after
+    the first, 10 at the end. `pace`: of all that flows, over that of 6 mm."""
+    rise = ", ".join(f"{{model: translate, velocity: [0, 0, {pace * speed:g} mm/s], start: {0.2 + since / pace:g} s, travel: {travel} mm}}"
+                     for speed, since, travel in ((30, 0.0, travels[0]), (8, 0.2, travels[1])))
+    return Plan(f"pile_funnel_{name}", "thesis/pile_funnel.yaml", {
+        **SOFT, "emitters.bed.mass": "2.5 g", "time.end": f"{0.8 + 0.8 / pace:g} s", "bodies.funnel.motions": f"[{rise}]",
+        "bodies.hopper.motions": f"[{rise}]", "references": "[]", **(settings or {})})
+
+
 EXPERIMENTS = (
     Experiment("A1 by the centre of the grain, too slow", "its own disturbance?",
                of_study("settling_a1_voidage", ("as it fails", "centre False"), ("own disturbance taken off", "centre True")),
@@ -283,6 +294,14 @@ EXPERIMENTS = (
     Experiment("The container of 24 widths between walls, too flat", "rolling friction?",
                (("as it fails", rectangular_container.plan_of("walls", 24)),
                 ("rolling friction 0.5 in place of 0.3", steeper(rectangular_container.plan_of("walls", 24)))), figure("slope", "angle"), "deg"),
+    Experiment("The pile from a funnel, too flat", "how far the sand falls on its tip, how fast it comes, or its friction? (2.5 g in place of 10)", (
+        ("outlet stops 5 mm over a tip of 39 deg, as it fails", poured_pile("small")),
+        ("2 mm over it", poured_pile("small_near", (3.5, 1.5))),
+        ("10 mm over it", poured_pile("small_far", (11, 2))),
+        ("outlet of 4 mm in place of 6", poured_pile("small_outlet_4", pace=0.31, settings={"bodies.funnel.radius": "2 mm"})),
+        ("rolling friction 0.5 in place of 0.3", poured_pile("small_rolling", settings={f"{SAND}.rolling.friction": "0.5"})),
+        ("restitution 0.5 in place of 0.9", poured_pile("small_restitution", settings={f"{SAND}.contact.restitution": "0.5"}))),
+        figure("pile", "angle"), "deg"),
     Experiment("B2 to B4, too fast", "added mass and memory of the liquid, or its walls?",
                variants("settling_b3_with", "thesis/settling_b3.yaml", {}, (
                    ("with virtual mass", "virtual_mass", {"fluid_forces": "[{model: lubrication}, {model: virtual_mass}]"}),

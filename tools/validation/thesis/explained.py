@@ -14,6 +14,7 @@ EXPERIMENT_OF = {
     r"B\d[,:] (Gidaspow|D/dx|coupling interval|error of Di Felice)": ("B1 with Gidaspow's law",),
     r"B[234], Abraham": ("B2 to B4, too fast",),
     r".*g, (dry|air): discharging time": ("The hourglass",),
+    r"pile, funnel": ("The pile from a funnel",),
     r"container, W/D \d+, walls": ("The container of 24 widths",),
     r"container, W/D \d+, periodic": ("Periodic containers",),
     r"100 mm, falling, 80 l/min": ("The same at 80 l/min", "The void fraction of the vessel's bed"),
