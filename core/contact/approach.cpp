@@ -3,6 +3,7 @@
 
 #include "base/lanes.hpp"
 #include "contact/batch_kernels.hpp"
+#include "contact/closest_approach.hpp"
 #include "dust/sdk/plugin.hpp"
 
 #include <algorithm>
@@ -20,6 +21,34 @@ __attribute__((always_inline)) inline const Lanes& wide_row(const double* rows, 
   return *reinterpret_cast<const Lanes*>(rows + k_motion_stride * static_cast<std::size_t>(n));
 }
 
+/// Of four pairs, apart by `x` by their nearest images: whether another image may come within
+/// reach. Between sides far apart none does.
+__attribute__((always_inline)) inline bool other_images_may_reach(const Lanes* x, const Lanes* v,
+                                                                  const Lanes& length,
+                                                                  double lifetime,
+                                                                  const Lanes& reach) {
+  LaneMask found{};
+  for (int d = 0; d < 3; ++d) {
+    if (!(length[d] > 0.0)) continue;
+    const Lanes apart = x[d] < 0.0 ? -x[d] : x[d];
+    const Lanes speed = v[d] < 0.0 ? -v[d] : v[d];
+    found |= length[d] - apart < reach + lifetime * speed;
+  }
+  return (found[0] | found[1] | found[2] | found[3]) != 0;
+}
+
+/// Adds to `meets` which of the four another image brings within reach.
+__attribute__((noinline)) void add_other_images(const Lanes* x, const Lanes* v,
+                                                const Images& images, double lifetime,
+                                                const Lanes& reach, LaneMask& meets) {
+  for (int l = 0; l < 4; ++l) {
+    if (other_image_approaches({x[0][l], x[1][l], x[2][l]}, {v[0][l], v[1][l], v[2][l]},
+                               images.length, lifetime, reach[l])) {
+      meets[l] = -1;
+    }
+  }
+}
+
 }  // namespace
 
 DUST_KERNEL void mark_approaching(const Trajectories& given, const Images& images,
@@ -34,6 +63,7 @@ DUST_KERNEL void mark_approaching(const Trajectories& given, const Images& image
   const Lanes sign{-1.0, -1.0, -1.0, 1.0};
   const Lanes length{images.length[0], images.length[1], images.length[2], 0.0};
   const Lanes half{images.half[0], images.half[1], images.half[2], HUGE_VAL};
+  const bool is_periodic = length[0] > 0.0 || length[1] > 0.0 || length[2] > 0.0;
   for (std::size_t q = 0; q < count; q += 4) {
     Lanes x[4];
     Lanes v[4];
@@ -68,7 +98,10 @@ DUST_KERNEL void mark_approaching(const Trajectories& given, const Images& image
     const LaneMask is_near_later = xx + lifetime * (2.0 * xv + lifetime * vv) < reach2;
     const LaneMask passes_between = (xv < 0.0) & (-xv < vv * lifetime);
     const LaneMask is_near_between = xx * vv - xv * xv < reach2 * vv;
-    const LaneMask meets = is_near | is_near_later | (passes_between & is_near_between);
+    LaneMask meets = is_near | is_near_later | (passes_between & is_near_between);
+    if (is_periodic && other_images_may_reach(x, v, length, lifetime, reach)) {
+      add_other_images(x, v, images, lifetime, reach, meets);
+    }
     // Distance < radii - speed times `behind`, squared twice: no root.
     const Lanes squared_path = behind2 * vv;
     const Lanes touch2 = x[3] * x[3];

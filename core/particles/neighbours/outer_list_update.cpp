@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "contact/closest_approach.hpp"
 #include "particles/neighbours/displaced_grid.hpp"
 #include "particles/neighbours/outer_list.hpp"
 
@@ -91,9 +92,11 @@ bool OuterList::come_near(const ListScene& scene, std::size_t i, std::size_t j) 
                        trajectories_.skin(j) + scene.laws.largest_range();
   const sdk::Vec3 xi = trajectories_.position(i, t);
   const sdk::Vec3 xj = trajectories_.position(j, t);
-  return approach_is_within(contact::nearest_image(scene.images, &xj.x, &xi.x),
-                            trajectories_.velocity(i) - trajectories_.velocity(j), remaining(scene),
-                            limit);
+  const sdk::Vec3 x = contact::nearest_image(scene.images, &xj.x, &xi.x);
+  const sdk::Vec3 v = trajectories_.velocity(i) - trajectories_.velocity(j);
+  const double* period = scene.images.length;
+  return contact::approach_is_within(x, v, remaining(scene), limit) ||
+         contact::other_image_approaches(x, v, period, remaining(scene), limit);
 }
 
 /// The pairs that the new trajectories bring near, by the list they belong to: of each tile, of the

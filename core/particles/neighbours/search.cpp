@@ -4,6 +4,7 @@
 #include "base/cells.hpp"
 #include "base/lanes.hpp"
 #include "base/periodic.hpp"
+#include "contact/closest_approach.hpp"
 #include "dust/sdk/kernel.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -319,7 +320,8 @@ bool can_approach(const SearchInput& in, std::int32_t i, std::int32_t j, double 
     if (in.period[d] > 0.0) x[d] = base::nearest_image(x[d], in.period[d]);
     v[d] = vi[d] - vj[d];
   }
-  return approach_is_within(x, v, in.lifetime, limit);
+  return contact::approach_is_within(x, v, in.lifetime, limit) ||
+         contact::other_image_approaches(x, v, in.period, in.lifetime, limit);
 }
 
 /// Particles by size. Level l holds radii in [largest / 2^(l+1), largest / 2^l); the very bound

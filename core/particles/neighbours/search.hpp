@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dust/sdk/vec3.hpp"
-
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -24,16 +21,6 @@ struct SearchInput {
   double origin[3] = {0, 0, 0};
   double period[3] = {0, 0, 0};  ///< [m] 0 = not periodic
 };
-
-/// Whether two grains, apart by `x` [m] and going on at the relative velocity `v` [m/s], come
-/// nearer than `limit` [m] within `lifetime` [s].
-inline bool approach_is_within(const sdk::Vec3& x, const sdk::Vec3& v, double lifetime,
-                               double limit) {
-  const double xv = dot(x, v);
-  const double vv = dot(v, v);
-  const double t = std::clamp(-xv / std::max(vv, 1e-300), 0.0, lifetime);
-  return dot(x, x) + t * (2.0 * xv + t * vv) < limit * limit;
-}
 
 /// All places a grain may be at until the lifetime is over: the middle of its straight path and
 /// round it the radius, the skin and half the path.

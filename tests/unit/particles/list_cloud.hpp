@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "contact/closest_approach.hpp"
 #include "dust/sdk/random.hpp"
 #include "particles/neighbours/list_scene.hpp"
 #include "particles/store/particle_store.hpp"
@@ -76,7 +77,7 @@ class ListCloud {
     const particles::ListScene s = scene();
     const double* vi = particles.velocity(i);
     const double* vj = particles.velocity(j);
-    return particles::approach_is_within(
+    return contact::approach_is_within(
         contact::nearest_image(images_, s.position(j), s.position(i)),
         {vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]}, duration, s.radius(i) + s.radius(j));
   }
