@@ -322,16 +322,13 @@ class Stale(unittest.TestCase):
         self.assertEqual(stale.marked(once, stale.MARK + " (more).*").count(stale.MARK), 1)
         self.assertEqual(stale.marked(once, ""), "# Title\n\ntext\n")
 
-    def test_the_cost_of_a_page_is_that_of_the_runs_it_stands_on(self):
-        class Engine:
-            def hours(self, plan):
-                return {"ran": 1.0, "again": 2.0, "never": 100.0}[plan.name]
-        plans = [runs.Plan(name, "verification/box.yaml", {"seed": seed}) for name, seed in (("ran", "1"), ("again", "2"), ("never", "3"))]
-        text = "| never: figure | not run |\n| ran | abc1234 | 1 |\n| again | abc1234 | 1 |\n"
-        self.assertEqual(3.0, stale.hours_of(text, plans, Engine()))
-        # The same run under another name is made once.
-        same = runs.Plan("again", "verification/box.yaml", {"seed": "1"})
-        self.assertEqual(1.0, stale.hours_of(text, [plans[0], same], Engine()))
+    def test_the_cost_of_a_page_is_what_its_runs_took(self):
+        rows = ["| run | commit | CPU [s] | state |", "| --- | --- | --- | --- |", "| ran | abc1234 | 3600 | `1234` |",
+                "| again | abc1234 | 7200 | `5678` |", "| under_another_name | abc1234 | 7200 | `5678` |", "| untold | abc1234 | - | `90ab` |"]
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "page.md"
+            file.write_text("\n".join(["# Page", "", "| figure | 900 |", "", "## Runs", "", *rows]) + "\n")
+            self.assertEqual(3.0, kept.Kept(file).hours())
 
     def test_the_engine_tells_its_commit(self):
         self.assertEqual(runs.commit_in("engine 0.1.0\ncommit: abc1234, changed\n"), "abc1234+changes")

@@ -58,6 +58,11 @@ class Kept:
     def cpu_s(self, run):
         return float(self._runs[run.name]["CPU [s]"])
 
+    def hours(self):
+        """What its runs took; one that stands under two names was made once."""
+        took = {cells.get("state", name): cells.get("CPU [s]", "-") for name, cells in self._runs.items()}
+        return sum(float(seconds) for seconds in took.values() if seconds != "-") / 3600
+
     def run_rows(self, columns, besides):
         """Rows of the table of runs but of those named, which are there anew; what the page did not tell is `-`."""
         return [[cells.get(column, "-") for column in columns] for name, cells in self._runs.items() if name not in besides]

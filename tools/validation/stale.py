@@ -10,8 +10,9 @@ import json
 import re
 
 import cases
+from kept import Kept
 from page import FOLDER
-from runs import BITS, ROOT, one_of_each
+from runs import BITS, ROOT
 
 LINE = re.compile(r"<!-- bits (.*?) -->")
 MARK = "*Figures of an older engine"
@@ -77,21 +78,14 @@ def marked(text, line):
     return "\n".join([title, *(["", line] if line else []), *rest]) + "\n"
 
 
-def hours_of(text, plans, engine):
-    """What the runs that a page stands on cost anew, each once; those that were never made cost nothing of it."""
-    made = set(re.findall(r"^\| (\S+) \| ", text, re.M))
-    return sum(engine.hours(plan) or 0.0 for plan in one_of_each((plan for plan in plans if plan.name in made), lambda plan: plan))
-
-
-def mark(engine, today):
-    """Says on each stale page that it is, since when that is known, and what making it anew costs."""
+def mark(today):
+    """Says on each stale page that it is, since when that is known, and what its runs took."""
     for case, file, reason in pages():
         if reason is None:
             continue
         before = file.read_text()
-        if reason and f": {reason})" in said(before):
-            continue  # said already, with its day
-        total = hours_of(before, cases.load(case).plans(), engine) if reason and engine.exists() else 0.0
+        since = re.search(rf"\((\S+): {re.escape(reason)}\)", said(before)) if reason else None
+        total = Kept(file).hours()
         cost = f": about {total:.0f} hours of one core" if total > 10 else f": about {max(60 * total, 1):.0f} min of one core" if total else ""
-        line = f"{MARK} ({today}: {reason}). Anew by `tools/validation/run {case}`{cost}.*" if reason else ""
+        line = f"{MARK} ({since.group(1) if since else today}: {reason}). Anew by `tools/validation/run {case}`{cost}.*" if reason else ""
         file.write_text(marked(before, line))
