@@ -90,8 +90,8 @@ TEST_CASE("a collision across periodic sides shall be the same as one within the
 }
 
 TEST_CASE("grains between close periodic sides shall meet by whichever image comes first") {
-  // Two on a ring of four diameters, or of five and a half, rebound by one image and by the other in
-  // turn. Elastic: one that is not seen in time sinks in, and leaves with another speed.
+  // Two on a ring of four diameters, or of five and a half, rebound by one image and by the other
+  // in turn. Elastic: one that is not seen in time sinks in, and leaves with another speed.
   for (const double period : {4e-3, 5.5e-3}) {
     for (const double speed : {0.3, 3.0, 10.0}) {
       DemRig rig;
