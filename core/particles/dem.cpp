@@ -250,11 +250,12 @@ std::span<const double> Dem::last_force() const {
   return impl_->last_force;
 }
 
-std::vector<ContactRecord> Dem::contacts() const {
+std::vector<ContactRecord> Dem::contacts(double time) const {
   impl_->synchronise();
   // Since grains came or went, the lists name other rows; they are made new at the next step.
   if (impl_->outer.is_reorder_due()) return {};
-  return contact_snapshot(impl_->contact_scene(), impl_->inner);
+  const auto surfaces = surfaces_at(time, impl_->conditions.surfaces);
+  return contact_snapshot(impl_->contact_scene_at(time, surfaces), impl_->inner);
 }
 
 EnergyBalance Dem::energy() const { return impl_->accounts.energy.balance(); }
@@ -317,11 +318,12 @@ void Dem::record_wall_loads() {
   impl_->outer.require(OuterList::Due::rebuild);
 }
 
-sdk::WallColumns Dem::close_wall_loads(double interval) {
+sdk::WallColumns Dem::close_wall_loads(double interval, double time) {
   if (!impl_->wall_loads.is_on()) return {};
   impl_->gather_wall_loads();
   impl_->wall_loads.close(interval);
-  impl_->wall_loads.note_contacts(impl_->contact_scene(), impl_->inner);
+  const auto surfaces = surfaces_at(time, impl_->conditions.surfaces);
+  impl_->wall_loads.note_contacts(impl_->contact_scene_at(time, surfaces), impl_->inner);
   return impl_->wall_loads.columns();
 }
 

@@ -144,8 +144,9 @@ class Dem {
   /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order; without the
   /// contacts of coarse grains where contact() did not keep them.
   [[nodiscard]] std::span<const double> last_force() const;
-  /// The contacts of this moment; costs a pass over all of them, so only for those who ask.
-  [[nodiscard]] std::vector<ContactRecord> contacts() const;
+  /// The contacts of this moment, which is `time` [s]; costs a pass over all of them, so only for
+  /// those who ask.
+  [[nodiscard]] std::vector<ContactRecord> contacts(double time) const;
   [[nodiscard]] const Balance& balance() const;
   [[nodiscard]] const BalanceLedger& ledger() const;
   /// Zeros unless the scenario asks for it (Setup::audit).
@@ -169,9 +170,9 @@ class Dem {
   [[nodiscard]] DustLoads::Balance dust_balance(std::size_t n) const;
   /// Keeps what grains do to walls from now on.
   void record_wall_loads();
-  /// Ends the interval [s] of the wall loads; nothing unless they are watched. Call between coarse
-  /// steps.
-  sdk::WallColumns close_wall_loads(double interval);
+  /// Ends the interval [s] of the wall loads, at `time` [s]; nothing unless they are watched. Call
+  /// between coarse steps.
+  sdk::WallColumns close_wall_loads(double interval, double time);
   /// As of the last close.
   [[nodiscard]] sdk::WallColumns wall_loads() const;
   /// Tells that a body was taken away.

@@ -192,6 +192,13 @@ ContactScene Dem::Impl::contact_scene() const {
           .has_weights = has_weights};
 }
 
+ContactScene Dem::Impl::contact_scene_at(double time, std::span<const Surface> surfaces) const {
+  ContactScene scene = contact_scene();
+  scene.surfaces = surfaces;
+  scene.time = time;
+  return scene;
+}
+
 OpeningMarks Dem::Impl::opening_marks() {
   return {conditions.openings, conditions.opening_rounding, store.touched_openings()};
 }

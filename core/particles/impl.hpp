@@ -63,6 +63,8 @@ class Dem::Impl {
   [[nodiscard]] MotionRows motion_rows() { return MotionRows::of(store, conditions.gravity); }
   [[nodiscard]] ListScene list_scene() const;
   [[nodiscard]] ContactScene contact_scene() const;
+  /// The contacts between steps: the last one left surfaces where they stood at its beginning.
+  [[nodiscard]] ContactScene contact_scene_at(double time, std::span<const Surface> surfaces) const;
   [[nodiscard]] OpeningMarks opening_marks();
   [[nodiscard]] StepScene step_scene();
   [[nodiscard]] FineScene fine_scene();

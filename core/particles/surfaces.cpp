@@ -30,6 +30,12 @@ void move_to(double time, std::span<Surface> surfaces) {
   }
 }
 
+std::vector<Surface> surfaces_at(double time, std::span<const Surface> surfaces) {
+  std::vector<Surface> moved(surfaces.begin(), surfaces.end());
+  move_to(time, moved);
+  return moved;
+}
+
 NearestSurface nearest_surface(std::span<const Surface> surfaces, sdk::Vec3 point, double reach) {
   NearestSurface nearest;
   for (const Surface& s : surfaces) {

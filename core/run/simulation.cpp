@@ -78,7 +78,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
   if (wants_walls_) dem_->record_wall_loads();
   build_dem_graph(check_every);
   build_step_graph();
-  snapshots_.take(*dem_);
+  snapshots_.take(*dem_, clock_.end_of_last_step());
   take_fluid_snapshot(FaceTable::Moment::before_step);
 }
 
@@ -98,7 +98,7 @@ void Simulation::start() {
     fluid_->start(dem_->rows());
     take_fluid_snapshot(FaceTable::Moment::before_step);
   }
-  snapshots_.take(*dem_);
+  snapshots_.take(*dem_, clock_.end_of_last_step());
   if (dust_) dust_->start();
 }
 
@@ -172,7 +172,7 @@ void Simulation::sample_forces(ForceShares& shares) {
       fluid::momentum_set_of(setup_.fluid->momentum_set) != fluid::MomentumSet::three) {
     in.fluid = world().fluid;
   }
-  shares.sample(dem_->rows(), dem_->contacts(), in);
+  shares.sample(dem_->rows(), dem_->contacts(clock_.end_of_last_step()), in);
 }
 
 void Simulation::insert() {
@@ -313,7 +313,7 @@ LoadParts Simulation::load_parts() {
   }
   // Last, so that the places of the last sample are those saved, not those just published.
   parts.emplace_back("columns", [this](sdk::ArchiveReader& a) {
-    snapshots_.take(*dem_);
+    snapshots_.take(*dem_, clock_.end_of_last_step());
     snapshots_.load(a);
   });
   for (std::size_t n = 0; n < models_.emitters.size(); ++n) {

@@ -217,8 +217,9 @@ void Simulation::add_last_nodes() {
                      }});
   }
   step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
-                     snapshots_.take(*dem_);
-                     if (wants_walls_) dem_->close_wall_loads(setup_.time.fluid_step);
+                     const double end = time() + clock_.fluid_step();
+                     snapshots_.take(*dem_, end);
+                     if (wants_walls_) dem_->close_wall_loads(clock_.fluid_step(), end);
                    }});
   step_graph_.add(
       {"health", {"grain.columns"}, {"health"}, [this] { check_finite(snapshots_.particles()); }});

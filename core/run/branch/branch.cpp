@@ -358,7 +358,7 @@ void Branch::transfer(const Simulation::Owners& to) {
   transfer_sensors(to.models);
   // Last, so that the places of the last sample are those saved, not those just published.
   origin_.state().read({{"columns", [&](sdk::ArchiveReader& a) {
-                           to.snapshots.take(to.particles);
+                           to.snapshots.take(to.particles, to.clock.end_of_last_step());
                            to.snapshots.load(a);
                          }}});
 }

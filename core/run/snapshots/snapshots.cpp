@@ -3,9 +3,9 @@
 
 namespace dust::run {
 
-void Snapshots::take(particles::Dem& dem) {
+void Snapshots::take(particles::Dem& dem, double time) {
   particles_.publish(dem.rows(), dem.last_force());
-  if (wanted_.contacts) contacts_.publish(dem.contacts(), particles_.order());
+  if (wanted_.contacts) contacts_.publish(dem.contacts(time), particles_.order());
 }
 
 void Snapshots::take(const fluid::FluidSolver& fluid, const fluid::CellField& void_fraction,

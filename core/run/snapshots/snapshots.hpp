@@ -36,7 +36,7 @@ class Snapshots {
 
   /// Notes where particles came in since the last copy.
   void note_insertions(const particles::GrainRows& rows) { particles_.note_insertions(rows); }
-  void take(particles::Dem& dem);
+  void take(particles::Dem& dem, double time);
   /// Not while somebody else asks for what passes the faces, where they are copied.
   void take(const fluid::FluidSolver& fluid, const fluid::CellField& void_fraction,
             FaceTable::Moment moment);

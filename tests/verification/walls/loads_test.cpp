@@ -29,10 +29,10 @@ TEST_CASE("a wall shall carry the weight of what rests on it, at its place") {
       {.position = {0.03, 0.02, rest}, .diameter = k_diameter, .weight = 0.5}});
   Stepper stepper(*dem);
   while (stepper.time() < 0.02) stepper.step();
-  dem->close_wall_loads(stepper.time());
+  dem->close_wall_loads(stepper.time(), stepper.time());
   const double before = stepper.time();
   while (stepper.time() < before + 0.01) stepper.step();
-  const auto walls = dem->close_wall_loads(stepper.time() - before);
+  const auto walls = dem->close_wall_loads(stepper.time() - before, stepper.time());
   REQUIRE(walls.name.size() == 1);
   CHECK(walls.name[0] == "plane");
   CHECK(walls.group[0] == "floor");
@@ -62,7 +62,7 @@ TEST_CASE("an impact shall give a wall the momentum it takes from the grain, and
   Stepper stepper(*dem);
   while (stepper.time() < 2e-3) stepper.step();
   const double time = stepper.time();
-  const auto walls = dem->close_wall_loads(time);
+  const auto walls = dem->close_wall_loads(time, stepper.time());
   const GrainState g = grain(*dem, 0);
   CHECK(g.velocity.z > 0.3);
   const double m = rig.mass();
@@ -82,7 +82,7 @@ TEST_CASE("an impact shall give a wall the momentum it takes from the grain, and
   CHECK(walls.impacts[0].tangential_energy ==
         approx(0.5 * m * std::pow(0.8 - 100 * 5e-4, 2)).epsilon(1e-3));
   CHECK(walls.mass[0] == 0.0);
-  const auto after = dem->close_wall_loads(1.0);
+  const auto after = dem->close_wall_loads(1.0, stepper.time());
   CHECK(after.impacts.empty());
   CHECK(after.force[0] == Vec3{});
 }
@@ -99,7 +99,7 @@ TEST_CASE("a floor that lifts a grain shall spend its weight times the speed") {
                                      .diameter = k_diameter}});
   Stepper stepper(*dem);
   while (stepper.time() < 0.05) stepper.step();
-  const auto walls = dem->close_wall_loads(stepper.time());
+  const auto walls = dem->close_wall_loads(stepper.time(), stepper.time());
   // The time mean over the small oscillation of the start.
   CHECK(walls.power[0] == approx(rig.mass() * k_g * 0.2).epsilon(1e-3));
 }
@@ -120,7 +120,7 @@ TEST_CASE("a belt that takes a grain along shall spend what the grain gains and 
   Stepper stepper(*dem);
   // Slip ends at t = 2 U / (7 mu g) = 97 ms.
   while (stepper.time() < 0.06) stepper.step();
-  const auto walls = dem->close_wall_loads(stepper.time());
+  const auto walls = dem->close_wall_loads(stepper.time(), stepper.time());
   CHECK(walls.power[0] == approx(mu * rig.mass() * k_g * speed).epsilon(2e-3));
   CHECK(walls.force[0].x == approx(-mu * rig.mass() * k_g).epsilon(2e-3));
 }
@@ -135,10 +135,10 @@ TEST_CASE("a grain in a corner of a vessel shall count once for the vessel") {
       std::vector<NewGrain>{{.position = {5.1e-4, 5.1e-4, 5.1e-4}, .diameter = k_diameter}});
   Stepper stepper(*dem);
   while (stepper.time() < 0.1) stepper.step();
-  dem->close_wall_loads(1.0);
+  dem->close_wall_loads(1.0, stepper.time());
   const double before = stepper.time();
   while (stepper.time() < before + 0.01) stepper.step();
-  const auto walls = dem->close_wall_loads(stepper.time() - before);
+  const auto walls = dem->close_wall_loads(stepper.time() - before, stepper.time());
   REQUIRE(walls.name.size() == 1);
   CHECK(walls.contacts[0] == 1);
   CHECK(walls.mass[0] == approx(rig.mass()).epsilon(1e-12));
@@ -161,7 +161,7 @@ TEST_CASE("a turning drum shall spend its torque times its spin, rolling couples
   dem->insert(std::vector<NewGrain>{{.position = {0, 0, -0.048}, .diameter = 4e-3}});
   Stepper stepper(*dem);
   while (stepper.time() < 0.3) stepper.step();
-  const auto walls = dem->close_wall_loads(stepper.time());
+  const auto walls = dem->close_wall_loads(stepper.time(), stepper.time());
   CHECK(walls.power[0] > 0.0);
   // The contact point is half an overlap within the drum's face.
   CHECK(walls.power[0] == approx(-k_spin * walls.torque[0].y).epsilon(1e-3));
@@ -182,7 +182,7 @@ TEST_CASE("a law that reaches farther than the touch shall make no impacts, nor 
         {.position = position, .velocity = velocity, .diameter = k_diameter}});
     Stepper stepper(*dem);
     while (stepper.time() < duration) stepper.step();
-    const auto walls = dem->close_wall_loads(stepper.time());
+    const auto walls = dem->close_wall_loads(stepper.time(), stepper.time());
     return std::vector(walls.impacts.begin(), walls.impacts.end());
   };
   // By 0.1 mm over it.

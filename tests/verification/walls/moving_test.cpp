@@ -47,7 +47,7 @@ TEST_CASE("sensors shall see how fast a wall moves where a grain touches it") {
   dem->insert(std::vector<NewGrain>{{.position = place, .diameter = k_diameter},
                                     {.position = beside, .diameter = k_diameter}});
   dem->neighbours();
-  const auto contacts = dem->contacts();
+  const auto contacts = dem->contacts(0.0);
   REQUIRE(contacts.size() == 3);
   int walls = 0;
   for (const auto& c : contacts) {
@@ -61,6 +61,28 @@ TEST_CASE("sensors shall see how fast a wall moves where a grain touches it") {
     CHECK(norm(c.wall_velocity - wanted) < 1e-12);
   }
   CHECK(walls == 2);
+}
+
+TEST_CASE("sensors shall see contacts with a wall that moves where it stands then") {
+  // A step late, the plate that rises would be off by speed x step: more than the overlap at rest.
+  for (const double speed : {0.5, 0.05, -0.3}) {
+    WallRig rig(0.5, 0.3, k_diameter);
+    rig.setup.gravity = {0, 0, -9.81};
+    rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}},
+             rig.motion("translate", {{"velocity", Vec3{0, 0, speed}}}));
+    auto dem = rig.make();
+    dem->insert(std::vector<NewGrain>{{.position = {0, 0, 0.5 * k_diameter - rig.resting_overlap()},
+                                       .velocity = {0, 0, speed},
+                                       .diameter = k_diameter}});
+    Stepper stepper(*dem);
+    while (stepper.time() < 0.05) stepper.step();
+    const auto contacts = dem->contacts(stepper.time());
+    CAPTURE(speed);
+    REQUIRE(contacts.size() == 1);
+    CHECK(contacts[0].force.z == approx(rig.mass() * 9.81).epsilon(1e-3));
+    CHECK(contacts[0].overlap == approx(rig.resting_overlap()).epsilon(1e-3));
+    CHECK(contacts[0].wall_velocity.z == approx(speed).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("a wall that sweeps through resting grains shall do what grains do that fly at a wall") {
@@ -299,7 +321,7 @@ TEST_CASE("a grain at rest on a turning drum shall go on turning with it") {
                                        .diameter = diameter}});
     Stepper stepper(*dem);
     while (stepper.time() < 0.15) stepper.step();
-    const auto walls = dem->close_wall_loads(stepper.time());
+    const auto walls = dem->close_wall_loads(stepper.time(), stepper.time());
     const GrainState g = grain(*dem, 0);
     CHECK(g.rotation.y == approx(k_spin).epsilon(1e-3));
     CHECK(norm(g.velocity) == approx(k_spin * arm).epsilon(1e-3));
