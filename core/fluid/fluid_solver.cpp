@@ -40,7 +40,7 @@ FluidSolver::Impl::Impl(const Grid& grid, const scenario::FluidSpec& fluid,
 
 void FluidSolver::Impl::use(const sdk::TurbulenceModel& turbulence) {
   eddies_ = std::make_unique<EddyStress>(grid_, geometry(), sides_, properties_, cut_.bodies(),
-                                         turbulence, u_);
+                                         turbulence);
 }
 
 /// Cuts the grid by the bodies as they move from `begin` to `end` [s], for all that depends on it.

@@ -305,6 +305,7 @@ std::span<const double> Dem::dust_load(std::size_t row) const { return impl_->lo
 void Dem::set_dust_free(std::size_t row, std::size_t n, double mass) {
   impl_->loads.set_free(impl_->store, row, n, mass);
 }
+void Dem::keep_wind() { impl_->store.keep_wind(); }
 void Dem::let_catch_dust() { impl_->loads.let_catch(); }
 void Dem::take_up_dust(std::size_t row, std::size_t n, double mass) {
   impl_->loads.take_up(impl_->store, row, n, mass);

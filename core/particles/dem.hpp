@@ -166,6 +166,8 @@ class Dem {
   /// See DustLoads: particles may catch dust; a real one catches `mass` [kg] of a class. Call
   /// between coarse steps.
   void let_catch_dust();
+  /// The wind at grains is kept for those who ask, see GrainRows. With a fluid only.
+  void keep_wind();
   void take_up_dust(std::size_t row, std::size_t n, double mass);
   [[nodiscard]] DustLoads::Balance dust_balance(std::size_t n) const;
   /// Keeps what grains do to walls from now on.

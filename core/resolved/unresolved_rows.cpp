@@ -20,7 +20,7 @@ const GrainRows& UnresolvedRows::take(const GrainRows& all,
   id_.clear();
   material_.clear();
   weight_.clear();
-  for (auto* column : {&position_, &velocity_, &rotation_, &action_, &impulse_}) {
+  for (auto* column : {&position_, &velocity_, &rotation_, &action_, &impulse_, &wind_}) {
     column->clear();
   }
   for (std::size_t n = 0; n < all.count; ++n) {
@@ -31,6 +31,7 @@ const GrainRows& UnresolvedRows::take(const GrainRows& all,
     append(rotation_, all.rotation_of(n));
     append(action_, all.drag_relaxation + 4 * n);
     append(impulse_, all.fluid_impulse + 4 * n);
+    if (all.wind != nullptr) append(wind_, all.wind + 4 * n);
     weight_.push_back(all.weight[n]);
     id_.push_back(all.id[n]);
     material_.push_back(all.material[n]);
@@ -43,6 +44,7 @@ const GrainRows& UnresolvedRows::take(const GrainRows& all,
            .material = material_.data(),
            .weight = weight_.data(),
            .drag_relaxation = action_.data(),
+           .wind = all.wind != nullptr ? wind_.data() : nullptr,
            .fluid_impulse = impulse_.data()};
   return rows_;
 }
@@ -50,6 +52,7 @@ const GrainRows& UnresolvedRows::take(const GrainRows& all,
 void UnresolvedRows::give_back_drag(const GrainRows& all) const {
   for (std::size_t n = 0; n < row_.size(); ++n) {
     std::copy_n(&action_[4 * n], 4, all.drag_relaxation + 4 * row_[n]);
+    if (all.wind != nullptr) std::copy_n(&wind_[4 * n], 4, all.wind + 4 * row_[n]);
   }
 }
 

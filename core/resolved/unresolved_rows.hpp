@@ -25,7 +25,7 @@ class UnresolvedRows {
 
  private:
   std::vector<std::size_t> row_;  ///< in all rows
-  contact::AlignedVector<double> position_, velocity_, rotation_, action_, impulse_;
+  contact::AlignedVector<double> position_, velocity_, rotation_, action_, impulse_, wind_;
   std::vector<double> weight_;
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> material_;

@@ -25,6 +25,16 @@ double drag_above_zero(double drag, double mass, double held) {
   return drag > 0.0 ? drag : k_share * mass / held;
 }
 
+/// The fluid at a particle with this relative slip, for those who ask how hard it blows.
+void note_wind(const particles::GrainRows& grains, std::size_t row, const Triple& relative,
+               double drag) {
+  if (grains.wind == nullptr) return;
+  const double* v = grains.velocity_of(row);
+  double* wind = grains.wind + 4 * row;
+  for (std::size_t d = 0; d < 3; ++d) wind[d] = v[d] + relative[d];
+  wind[3] = drag;
+}
+
 sdk::VectorColumns columns_of(const std::array<StencilBatch::Reals, 3>& v) {
   return {v[0].data(), v[1].data(), v[2].data()};
 }
@@ -131,13 +141,16 @@ void DragRelaxation::relax_by_drag(const particles::GrainRows& grains, Rows rows
     const double volume = sdk::sphere_volume(diameter);
     // The particles' reduced gravity is that of the fluid's own density.
     const double lift = volume * (drag_.properties().own().density - fluid.density);
+    Triple relative;
     for (std::size_t d = 0; d < 3; ++d) {
       const double force =
           volume * flow.stress[d][q] + (lift == 0.0 ? 0.0 : lift * gravity_[static_cast<int>(d)]);
-      action[d] = v[d] + relative_slip(flow, ahead, d, q) + force * per_drag;
+      relative[d] = relative_slip(flow, ahead, d, q);
+      action[d] = v[d] + relative[d] + force * per_drag;
       r.stress_impulse[d] += force;
     }
     action[3] = drag * v[3];
+    note_wind(grains, row, relative, drag);
   }
 }
 
@@ -155,6 +168,7 @@ void DragRelaxation::relax_by_forces(const particles::GrainRows& grains, Rows ro
     Triple relative;
     for (std::size_t d = 0; d < 3; ++d) relative[d] = relative_slip(flow, ahead, d, q);
     act(grains, row, q, drag, relative, held, sums);
+    note_wind(grains, row, relative, drag);
   }
 }
 

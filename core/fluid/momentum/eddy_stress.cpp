@@ -19,12 +19,13 @@ constexpr double k_far = 10.0;
 
 EddyStress::EddyStress(const Grid& grid, const Geometry& geometry, const Sides& sides,
                        const FaceProperties& properties, const bodies::BodySet& bodies,
-                       const sdk::TurbulenceModel& model, const FaceField& start)
+                       const sdk::TurbulenceModel& model)
     : grid_(grid),
       geometry_(geometry),
       sides_(sides),
       properties_(properties),
       model_(model),
+      body_distance_(grid.size, std::numeric_limits<double>::infinity()),
       distance_(grid.size, std::numeric_limits<double>::infinity()),
       density_(grid.size, properties.density()),
       molecular_(grid.size, properties.viscosity()),
@@ -50,7 +51,6 @@ EddyStress::EddyStress(const Grid& grid, const Geometry& geometry, const Sides& 
       }
     });
   }
-  find_walls(start);
   find_distances(bodies, 0.0);
   find_edges();
 }
@@ -107,21 +107,28 @@ void EddyStress::find_edges() {
   }
 }
 
-void EddyStress::find_walls(const FaceField& start) {
+/// Those at which the fluid sticks and through most of whose faces none passes: one with a hood in
+/// it is a wall, an inlet is none while it blows.
+std::array<bool, 6> EddyStress::sides_that_are_walls(const FaceField& u) const {
+  std::array<bool, 6> is_wall{};
   for (int side = 0; side < 6; ++side) {
     const int d = side / 2;
     const int high = side % 2;
     const int e = (d + 1) % 3;
     const int f = (d + 2) % 3;
-    walls_.is_side[side] = ghost_rule(sides_.kinds(), e, d, high) == GhostRule::fixed;
-    for (int a = 0; a < grid_.count[e] && walls_.is_side[side]; ++a) {
+    if (ghost_rule(sides_.kinds(), e, d, high) != GhostRule::fixed) continue;
+    if (ghost_rule(sides_.kinds(), d, d, high) != GhostRule::fixed) continue;
+    int passed = 0;
+    for (int a = 0; a < grid_.count[e]; ++a) {
       for (int b = 0; b < grid_.count[f]; ++b) {
         const std::ptrdiff_t o = grid_.index(0, 0, 0) + a * grid_.stride[e] + b * grid_.stride[f] +
                                  high * grid_.count[d] * grid_.stride[d];
-        if (start.component[d][o] != 0.0) walls_.is_side[side] = false;
+        passed += u.component[d][o] != 0.0 ? 1 : 0;
       }
     }
+    is_wall[side] = 2 * passed <= grid_.count[e] * grid_.count[f];
   }
+  return is_wall;
 }
 
 void EddyStress::find_distances(const bodies::BodySet& bodies, double time) {
@@ -130,12 +137,6 @@ void EddyStress::find_distances(const bodies::BodySet& bodies, double time) {
     for (int i = 0; i < grid_.count[0]; ++i) {
       const sdk::Vec3 centre = grid_.centre(i, j, k);
       double least = std::numeric_limits<double>::infinity();
-      for (int side = 0; side < 6; ++side) {
-        if (!walls_.is_side[side]) continue;
-        const int d = side / 2;
-        const double end = grid_.origin[d] + (side % 2) * grid_.count[d] * grid_.spacing[d];
-        least = std::min(least, std::abs(centre[d] - end));
-      }
       for (const bodies::Body& body : bodies) {
         if (body.is_removed()) continue;
         const bodies::Placement at = body.placement(time);
@@ -144,7 +145,25 @@ void EddyStress::find_distances(const bodies::BodySet& bodies, double time) {
           least = std::min(least, std::max(0.0, body.nearest(centre, at).distance));
         }
       }
-      distance_[grid_.index(i, j, k)] = least;
+      body_distance_[grid_.index(i, j, k)] = least;
+    }
+  });
+  add_sides();
+}
+
+void EddyStress::add_sides() {
+  for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+    for (int i = 0; i < grid_.count[0]; ++i) {
+      const sdk::Vec3 centre = grid_.centre(i, j, k);
+      const std::ptrdiff_t o = grid_.index(i, j, k);
+      double least = body_distance_[o];
+      for (int side = 0; side < 6; ++side) {
+        if (!walls_.is_side[side]) continue;
+        const int d = side / 2;
+        const double end = grid_.origin[d] + (side % 2) * grid_.count[d] * grid_.spacing[d];
+        least = std::min(least, std::abs(centre[d] - end));
+      }
+      distance_[o] = least;
     }
   });
 }
@@ -221,6 +240,11 @@ void EddyStress::force_row(const FaceField& u, int d, int j, int k) {
 }
 
 void EddyStress::update(const FaceField& u) {
+  const std::array<bool, 6> is_side = sides_that_are_walls(u);
+  if (is_side != walls_.is_side) {
+    walls_.is_side = is_side;
+    add_sides();
+  }
   find_viscosity(u);
   for (int d = 0; d < 3; ++d) {
     if (!geometry_.has_unknown[d]) continue;

@@ -22,11 +22,9 @@ namespace dust::fluid {
 /// it is not: rate() limits the step.
 class EddyStress {
  public:
-  /// Walls among the sides (where the fluid sticks and none is blown through at the start) are
-  /// those of the beginning. `start`: velocities with filled halos.
   EddyStress(const Grid& grid, const Geometry& geometry, const Sides& sides,
              const FaceProperties& properties, const bodies::BodySet& bodies,
-             const sdk::TurbulenceModel& model, const FaceField& start);
+             const sdk::TurbulenceModel& model);
 
   /// Distances from the bodies where they are at `time` [s].
   void bodies_moved(const bodies::BodySet& bodies, double time);
@@ -54,8 +52,9 @@ class EddyStress {
     std::array<std::vector<double>, 3> edge;
     std::array<std::vector<char>, 3> is_blocked;  ///< faces that a thin body closes
   };
-  void find_walls(const FaceField& start);
+  [[nodiscard]] std::array<bool, 6> sides_that_are_walls(const FaceField& u) const;
   void find_distances(const bodies::BodySet& bodies, double time);
+  void add_sides();
   void find_edges();
   /// Whether a face of component d, which may lie beyond a periodic side, is in or next to a body.
   [[nodiscard]] bool is_in_body(int d, std::array<int, 3> face) const;
@@ -72,7 +71,8 @@ class EddyStress {
   const sdk::TurbulenceModel& model_;
   double filter_width_ = 0.0;
   Walls walls_;
-  CellField distance_;  ///< [m]
+  CellField body_distance_;  ///< [m] to the nearest body
+  CellField distance_;       ///< [m] to the nearest body or wall among the sides
   CellField density_;
   CellField molecular_;
   CellField rate_;  ///< [1/s]

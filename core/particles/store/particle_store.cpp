@@ -40,6 +40,7 @@ GrainRows ParticleStore::rows() {
           .material = material_.data(),
           .weight = weight_.data(),
           .drag_relaxation = drag_.data(),
+          .wind = keeps_wind_ ? wind_.data() : nullptr,
           .fluid_impulse = impulse_.data(),
           .motion_stride = k_motion_stride};
 }
@@ -63,6 +64,7 @@ void ParticleStore::append(const NewGrain& g, double mass, std::int32_t populati
     impulse_.insert(impulse_.end(), 4, 0.0);
     decay_.insert(decay_.end(), 2, 1.0);
   }
+  if (keeps_wind_) wind_.insert(wind_.end(), 4, 0.0);
   id_.push_back(next_id_++);
   material_.push_back(g.material);
   population_.push_back(population);
@@ -97,6 +99,7 @@ void ParticleStore::transfer_from(const ParticleStore& other,
     impulse_.assign(4 * size(), 0.0);
     decay_.assign(2 * size(), 1.0);
   }
+  if (keeps_wind_) keep_wind();
   set_openings(has_openings_);
   for (std::size_t n = 0; n < touched_.size() && n < other.touched_.size(); ++n) {
     if (other.touched_[n] >= 0) touched_[n] = openings[static_cast<std::size_t>(other.touched_[n])];
@@ -111,11 +114,17 @@ void ParticleStore::reorder(std::span<const std::int32_t> order) {
     reorder_rows(impulse_, order, 4);
     reorder_rows(decay_, order, 2);
   }
+  if (keeps_wind_) reorder_rows(wind_, order, 4);
   reorder_rows(id_, order, 1);
   reorder_rows(material_, order, 1);
   reorder_rows(population_, order, 1);
   reorder_rows(weight_, order, 1);
   if (has_openings_) reorder_rows(touched_, order, 1);
+}
+
+void ParticleStore::keep_wind() {
+  keeps_wind_ = true;
+  wind_.assign(4 * size(), 0.0);
 }
 
 void ParticleStore::set_openings(bool has_openings) {
@@ -194,6 +203,7 @@ void ParticleStore::load(sdk::ArchiveReader& archive, std::int64_t next_id, bool
   material_.assign(material.begin(), material.end());
   population_.assign(population.begin(), population.end());
   weight_ = archive.numbers("weight");
+  if (keeps_wind_) keep_wind();
   if (has_openings_) {
     const auto touched = archive.integers("touched_opening");
     touched_.assign(touched.begin(), touched.end());

@@ -105,6 +105,9 @@ class ParticleStore {
                      std::span<const std::int32_t> openings, std::span<const double> mass);
   /// Row n becomes what row order[n] was; rows not named are dropped.
   void reorder(std::span<const std::int32_t> order);
+  /// There is room for the wind at particles, see GrainRows; it is not saved, for the coupling
+  /// writes it anew in each step. With a fluid only.
+  void keep_wind();
   /// Whether there are openings that particles may touch.
   void set_openings(bool has_openings);
   /// Drag has been rewritten: what it leaves over a step [s].
@@ -126,6 +129,7 @@ class ParticleStore {
  private:
   bool has_fluid_;
   bool has_drag_ = false;
+  bool keeps_wind_ = false;
   bool has_openings_ = false;
   std::int64_t next_id_ = 0;
   contact::AlignedVector<double> position_;
@@ -134,6 +138,7 @@ class ParticleStore {
   contact::AlignedVector<double> drag_;  ///< empty without a fluid, as the next two
   contact::AlignedVector<double> impulse_;
   contact::AlignedVector<double> decay_;
+  contact::AlignedVector<double> wind_;  ///< empty unless kept
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> material_;
   std::vector<std::int32_t> population_;  ///< index into the balance ledger

@@ -49,6 +49,7 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
     coarse_graining_.push_back(m.coarse_graining);
   }
   law_->prepare(preflight::dust_properties(setup, *dust_setup.field));
+  if (law_->needs_wind()) particles_.keep_wind();
   causes_ = causes_of(particles_.wall_names(), law_->needs_wind());
   set_free_.resize(causes_.size() * classes_);
   impact_energy_.resize(1 + particles_.wall_names().size());
@@ -106,8 +107,8 @@ void LiberationStage::add_impact_energy(std::size_t row, double weight) {
   }
 }
 
-/// All rows but those that are fed, and the wind at them: what their drag relaxes to, less their
-/// own velocity.
+/// All rows but those that are fed, and the wind at them. Spheres that the grid resolves have none:
+/// no law tells their drag.
 void LiberationStage::find_wind() {
   const particles::GrainRows grains = particles_.rows();
   rows_.clear();
@@ -122,13 +123,15 @@ void LiberationStage::find_wind() {
   }
   for (std::size_t q = 0; q < rows_.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows_[q]);
-    const double* to = grains.drag_relaxation + 4 * row;
+    const double* wind = grains.wind + 4 * row;
     const double* v = grains.velocity_of(row);
     const double* x = grains.position + 4 * row;
     const double slip =
-        to[3] > 0.0 ? norm(sdk::Vec3{to[0] - v[0], to[1] - v[1], to[2] - v[2]}) : 0.0;
+        wind[3] > 0.0 ? norm(sdk::Vec3{wind[0] - v[0], wind[1] - v[1], wind[2] - v[2]}) : 0.0;
+    // A coarse particle drags as all that it stands for do.
+    const double drag = wind[3] / cube(coarse_graining(row)) * slip;
     c.slip[q] = slip;
-    c.shear[q] = c.mass[q] * to[3] * slip / (std::numbers::pi * c.diameter[q] * c.diameter[q]);
+    c.shear[q] = drag / (std::numbers::pi * c.diameter[q] * c.diameter[q]);
     c.void_fraction[q] = dust_.void_fraction_at({x[0], x[1], x[2]});
   }
 }

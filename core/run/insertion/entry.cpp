@@ -81,6 +81,17 @@ void check_place(const EntryScene& scene, const InsertionCandidate& e, double al
   }
 }
 
+/// Whether a body that moves stands where the grain wants to enter: a gate that has closed over a
+/// feed. Those at rest stand clear of feeds, or `engine check` refuses them.
+bool is_in_moving_body(const EntryScene& scene, Vec3 centre, double radius) {
+  const double reach = radius - rounding(scene);
+  return std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
+                     [&](const particles::Surface& s) {
+                       return s.is_displaced() && !s.is_removed() &&
+                              s.contact_at(scene.time, centre, radius).distance < reach;
+                     });
+}
+
 }  // namespace
 
 Vec3 separation(const EntryScene& scene, Vec3 from, Vec3 to) {
@@ -186,7 +197,12 @@ std::vector<InsertionCandidate> take_without_overlap(std::vector<InsertionCandid
     const sdk::InsertionRule rule =
         emitter < scene.rules.size() ? scene.rules[emitter] : sdk::InsertionRule{};
     const double radius = 0.5 * e.grain.diameter;
-    if (!rule.waits) check_place(scene, e, rule.allowed_overlap, largest);
+    if (!rule.waits) {
+      check_place(scene, e, rule.allowed_overlap, largest);
+    } else if (is_in_moving_body(scene, e.grain.position, radius)) {
+      blocked.push_back(e);
+      continue;
+    }
     const auto* other = grid.overlapping(e.grain.position, radius, rule.allowed_overlap);
     if (other == nullptr) {
       grid.add({e.grain.position, radius, -1 - static_cast<std::int64_t>(n)});

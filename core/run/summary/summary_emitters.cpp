@@ -148,8 +148,8 @@ std::vector<std::string> shortfalls(const Simulation& s, const RunFacts& facts) 
          << "' falls short: " << base::mass_text(s.insertion().ledger().totals_of(e).mass, 4);
     const double asked = requested_stream(s, facts, e);
     if (asked > 0.0) text << " of " << base::mass_text(asked, 4);
-    text << " came in; " << waiting << " grains wait because grains in the domain take their "
-         << "places: make room in front of the emitter or reduce its flow";
+    text << " came in; " << waiting << " grains wait because grains in the domain, or bodies that "
+         << "move, take their places: make room in front of the emitter or reduce its flow";
     all.push_back(text.str());
   }
   return all;

@@ -102,6 +102,32 @@ TEST_CASE("a large grain beyond the box of the waiting centres shall be seen") {
   CHECK(waiting.size() == 1);
 }
 
+TEST_CASE("a grain shall wait while a body that moves stands in its place") {
+  // A plate at 1 m/s from x = -2 mm on, 1 mm thick: over the place from 0.8 to 2.2 ms.
+  test::DemRig rig;
+  const int steel = rig.material(7800, 50e6, 0.3);
+  scenario::BodySpec gate;
+  gate.material = steel;
+  gate.shape = {.kind = "shape",
+                .name = "box",
+                .values = {sdk::Vec3{-2e-3, -1e-2, -1e-2}, sdk::Vec3{-1e-3, 1e-2, 1e-2}},
+                .path = {},
+                .where = {}};
+  rig.bodies.push_back(
+      bodies::make_body(rig.setup, gate,
+                        test::ModelLoader::make<sdk::Motion>("motion", "translate",
+                                                             {{"velocity", sdk::Vec3{1, 0, 0}}})));
+  auto s = scene();
+  s.surfaces = particles::surfaces_of(rig.setup, rig.bodies);
+  std::vector<InsertionCandidate> waiting{grain(0.0)};
+  s.time = 1e-3;
+  CHECK(run::take_without_overlap(waiting, {}, s).empty());
+  s.time = 2.1e-3;
+  CHECK(run::take_without_overlap(waiting, {}, s).empty());
+  s.time = 2.3e-3;
+  CHECK(run::take_without_overlap(waiting, {}, s).size() == 1);
+}
+
 TEST_CASE("waiting grains shall come back from a checkpoint as they were") {
   std::vector<InsertionCandidate> waiting{grain(0.0), grain(1e-3, 1e-5)};
   waiting[1].grain.weight = 0.05;

@@ -64,6 +64,34 @@ TEST_CASE("plane shear shall have the eddy viscosity of the formula, less near t
   }
 }
 
+TEST_CASE("a side shall be a wall where a hood draws, and none while air is blown through it") {
+  // The shear of above. From the start on a hood, an eighth of the side, draws through the lower
+  // wall what comes in evenly through the upper one.
+  constexpr double k_shear = 200.0;
+  constexpr int k_cells = 20;
+  const auto model = smagorinsky();
+  auto c = box({8, 8, k_cells}, {0.04, 0.08, 0.02}, 1.8e-5);
+  c.sides[4] = test::wall();
+  c.sides[4]->velocity = [](Vec3 x, double time) {
+    return Vec3{0, 0, time > 0.0 && x.x < 0.005 ? -8e-9 : 0.0};
+  };
+  c.sides[5] = test::wall();
+  c.sides[5]->velocity = [](Vec3, double time) {
+    return Vec3{k_shear * 0.02, 0, time > 0.0 ? -1e-9 : 0.0};
+  };
+  c.start();
+  c.solver->use(*model);
+  c.solver->set_velocity([](Vec3 x) { return Vec3{k_shear * x.z, 0, 0}; });
+  for (int n = 0; n < 3; ++n) c.advance(1e-7);
+  const double width = std::cbrt(0.005 * 0.01 * 0.001);
+  for (int k = 0; k < k_cells; ++k) {
+    const double length = std::min(k_coefficient * width, 0.41 * 0.001 * (k + 0.5));
+    CAPTURE(k);
+    CHECK((*c.solver->eddy_viscosity())[static_cast<std::size_t>(c.grid.index(3, 4, k))] ==
+          test::approx(k_rho * length * length * k_shear).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("stretching shall count like shear: |S| of a vortex array") {
   // u = (sin x cos y, -cos x sin y): |S| = 2 |cos x cos y|, no shear stress at all.
   constexpr int k_cells = 64;
