@@ -21,15 +21,16 @@ struct GrainRows {
   /// relaxes towards (x, y, z) [m/s] at the rate in the fourth column [1/s]: dv/dt = rate (target -
   /// v) + contact + g'.
   double* drag_relaxation = nullptr;
-  /// Null unless kept (Dem::keep_wind). Written with drag_relaxation, which holds all that acts on
-  /// the grain: the velocity of the fluid at it [m/s], and K [kg/s] of its drag alone.
-  double* wind = nullptr;
   /// Impulse [N s] a computed grain has received through drag_relaxation since the coupling last
   /// set it to zero: x, y, z, unused. Exactly what changed the grain's momentum.
   double* fluid_impulse = nullptr;
 
   /// Doubles from one grain's velocity, or rotation, to the next's.
   std::size_t motion_stride = 4;
+
+  /// Null unless kept (Dem::keep_wind). Written with drag_relaxation, which holds all that acts on
+  /// the grain: the velocity of the fluid at it [m/s], and K [kg/s] of its drag alone.
+  double* wind = nullptr;
 
   [[nodiscard]] const double* velocity_of(std::size_t row) const {
     return velocity + motion_stride * row;

@@ -44,8 +44,8 @@ const GrainRows& UnresolvedRows::take(const GrainRows& all,
            .material = material_.data(),
            .weight = weight_.data(),
            .drag_relaxation = action_.data(),
-           .wind = all.wind != nullptr ? wind_.data() : nullptr,
-           .fluid_impulse = impulse_.data()};
+           .fluid_impulse = impulse_.data(),
+           .wind = all.wind != nullptr ? wind_.data() : nullptr};
   return rows_;
 }
 

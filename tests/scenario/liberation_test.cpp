@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <limits>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>

@@ -6,7 +6,9 @@
 #include "fluid/parallel.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace dust::fluid {
 namespace {
@@ -46,12 +48,10 @@ DUST_KERNEL void convection_row(int n, double mass, const RowFlux& flux, const d
   }
 }
 
-/// Faces in or next to bodies are not counted.
 DUST_KERNEL void end_row(int n, std::ptrdiff_t s, double density, bool is_whole, double step,
-                         double last, const FaceKind* kind, const double* eps, const double* before,
-                         const double* u, const double* source, const double* coefficient,
-                         const double* drag, const double* stress, double* excess,
-                         double* deferred) {
+                         double last, const double* eps, const double* before, const double* u,
+                         const double* source, const double* coefficient, const double* drag,
+                         const double* stress, double* excess, double* deferred) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double share = 0.5 * (eps[i] + eps[i - s]);
@@ -61,9 +61,17 @@ DUST_KERNEL void end_row(int n, std::ptrdiff_t s, double density, bool is_whole,
     excess[i] = now;
     deferred[i] = now - density * change * last * u[i];
   }
-  // In loops of their own, which a vector of bytes does not hold up.
-  for (int i = 0; i < n; ++i) excess[i] = kind[i] == FaceKind::plain ? excess[i] : 0.0;
-  for (int i = 0; i < n; ++i) deferred[i] = kind[i] == FaceKind::plain ? deferred[i] : 0.0;
+}
+
+/// In a loop of its own, which a vector of bytes does not hold up.
+DUST_KERNEL void keep_plain(int n, const FaceKind* kind, double* values) {
+  for (int i = 0; i < n; ++i) values[i] = kind[i] == FaceKind::plain ? values[i] : 0.0;
+}
+
+/// Whether all that makes the stencil of a face another one is a side of the domain.
+bool is_cut_by_side(const CutFace& face) {
+  return std::all_of(face.wall_point.begin(), face.wall_point.end(),
+                     [](std::int32_t point) { return point < 0; });
 }
 
 }  // namespace
@@ -83,6 +91,30 @@ void MomentumBalance::each_row(const Work& work) const {
   for (int d = 0; d < 3; ++d) {
     const auto& n = geometry_.extent[d];
     for_rows(n[0], n[1], n[2], [&](int j, int k) { work(d, j, k, grid_.index(0, j, k), n[0]); });
+  }
+}
+
+/// Faces in or next to bodies are not counted. Those next to sides are, though along x their
+/// stencils stand in the list of cut ones.
+void MomentumBalance::leave_out_bodies(int d, int j, int k) {
+  const std::ptrdiff_t o = grid_.index(0, j, k);
+  const int n = geometry_.extent[d][0];
+  const auto row = static_cast<std::size_t>(j + geometry_.extent[d][1] * k);
+  const auto begin = static_cast<std::size_t>(geometry_.cut_begin[d][row]);
+  const auto end = static_cast<std::size_t>(geometry_.cut_begin[d][row + 1]);
+  for (auto* field : {&excess_, &deferred_}) {
+    auto& values = field->component[d];
+    thread_local std::vector<double> of_cut;
+    of_cut.clear();
+    for (std::size_t c = begin; c < end; ++c) {
+      const CutFace& face = geometry_.cut[d][c];
+      of_cut.push_back(is_cut_by_side(face) ? values[static_cast<std::size_t>(face.at)] : 0.0);
+    }
+    keep_plain(n, &geometry_.kind[d][static_cast<std::size_t>(o)],
+               &values[static_cast<std::size_t>(o)]);
+    for (std::size_t c = begin; c < end; ++c) {
+      values[static_cast<std::size_t>(geometry_.cut[d][c].at)] = of_cut[c - begin];
+    }
   }
 }
 
@@ -126,10 +158,11 @@ void MomentumBalance::end(const FaceField& u, const CellField& eps, const Acted&
                           double last) {
   each_row([&](int d, int j, int k, std::ptrdiff_t o, int n) {
     end_row(n, grid_.stride[d], properties_.density(),
-            properties_.momentum_set() == MomentumSet::three, step, last, &geometry_.kind[d][o],
-            &eps[o], &eps_before_[o], &u.component[d][o], &acted.source.component[d][o],
-            &acted.coefficient.component[d][o], &drag_velocity.component[d][o],
-            &stress.component[d][o], &excess_.component[d][o], &deferred_.component[d][o]);
+            properties_.momentum_set() == MomentumSet::three, step, last, &eps[o], &eps_before_[o],
+            &u.component[d][o], &acted.source.component[d][o], &acted.coefficient.component[d][o],
+            &drag_velocity.component[d][o], &stress.component[d][o], &excess_.component[d][o],
+            &deferred_.component[d][o]);
+    leave_out_bodies(d, j, k);
     leave_out_sides(d, j, k);
   });
 }

@@ -47,6 +47,7 @@ class MomentumBalance {
   /// Calls work(d, j, k, padded index of the first face, number of faces) for every row.
   template <class Work>
   void each_row(const Work& work) const;
+  void leave_out_bodies(int d, int j, int k);
   void leave_out_sides(int d, int j, int k);
 
   const Grid& grid_;

@@ -40,9 +40,9 @@ GrainRows ParticleStore::rows() {
           .material = material_.data(),
           .weight = weight_.data(),
           .drag_relaxation = drag_.data(),
-          .wind = keeps_wind_ ? wind_.data() : nullptr,
           .fluid_impulse = impulse_.data(),
-          .motion_stride = k_motion_stride};
+          .motion_stride = k_motion_stride,
+          .wind = keeps_wind_ ? wind_.data() : nullptr};
 }
 
 ParticleStore::Motion ParticleStore::motion() {

@@ -2,6 +2,7 @@
 #include "fluid/fluid_solver.hpp"
 #include "support/approx.hpp"
 #include "unit/coupling/world.hpp"
+#include "verification/fluid/fluid_case.hpp"
 
 #include <doctest/doctest.h>
 
@@ -26,11 +27,12 @@ constexpr double k_smallest_cfl = 0.1;  // a Courant number of 0.5 makes 5 sub-s
 /// Air and grains in a periodic box, coupled as a run couples them.
 struct Cloud {
   explicit Cloud(bool overlaps = false) : Cloud(periodic_box(overlaps)) {}
-  explicit Cloud(const World::Choice& choice, double largest_cfl = k_smallest_cfl) : world(choice) {
+  explicit Cloud(const World::Choice& choice, double largest_cfl = k_smallest_cfl,
+                 const fluid::Boundaries& sides = {})
+      : world(choice) {
     world.setup.fluid->largest_cfl = largest_cfl;
     world.setup.fluid->pressure_tolerance = k_pressure_tolerance;
-    air = std::make_unique<fluid::FluidSolver>(world.grid, *world.setup.fluid, bodies,
-                                               fluid::Boundaries{});
+    air = std::make_unique<fluid::FluidSolver>(world.grid, *world.setup.fluid, bodies, sides);
     air->set_velocity([](sdk::Vec3) { return sdk::Vec3{k_air_speed, 0, 0}; });
   }
   static World::Choice periodic_box(bool overlaps) {
@@ -343,6 +345,37 @@ TEST_CASE("momentum of air with eddies and scattered grains shall be conserved t
     CHECK(*std::max_element(viscosity.begin(), viscosity.end()) > 0.1 * test::k_air_viscosity);
     CHECK(kept.drift < k_rounding);
     CHECK(kept.on_the_way < k_late);
+  }
+}
+
+TEST_CASE("momentum along slip sides shall be conserved, whichever axis these stand across") {
+  constexpr double k_rounding = 1e-10;
+  for (int across = 0; across < 3; ++across) {
+    const int along = (across + 1) % 3;
+    World::Choice choice = scattered_box("di_felice", "divided", "I");
+    choice.periodic[static_cast<std::size_t>(across)] = false;
+    const auto low = test::slip();
+    const auto high = test::slip();
+    fluid::Boundaries sides{};
+    sides[static_cast<std::size_t>(2 * across)] = low.get();
+    sides[static_cast<std::size_t>(2 * across + 1)] = high.get();
+    Cloud cloud(choice, 0.5, sides);
+    cloud.air->set_velocity([along](sdk::Vec3) {
+      sdk::Vec3 v;
+      v[along] = k_air_speed;
+      return v;
+    });
+    scatter(cloud.world, 8e-4, 0.05);
+    cloud.world.begin_step(k_fluid_step);
+    cloud.step(true);
+    const auto there = [&] {
+      return (cloud.air_momentum() + cloud.grain_momentum() + cloud.on_the_way())[along];
+    };
+    const double start = there();
+    for (int step = 0; step < 20; ++step) cloud.step(true);
+    CAPTURE(across);
+    CHECK(std::abs(there() - start) < 20 * k_rounding * size_of(cloud));
+    CHECK(cloud.grain_momentum()[along] > 0.01 * start);
   }
 }
 
