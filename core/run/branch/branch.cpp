@@ -563,6 +563,15 @@ bool Branch::keeps_statistics(const std::string& name, const sdk::Sensor& model,
   };
   const auto& theirs = origin_.scenario().setup;
   if (names(theirs.materials) != names(now_.setup.materials)) return false;
+  // All that was emitted, counted or held weighs what its material weighs now. Other numbers of
+  // materials, as of laws, are what a branch tries: sums mean the same.
+  const auto is_as_dense = [](const auto& a, const auto& b) {
+    return a.properties.density == b.properties.density;
+  };
+  if (!std::equal(theirs.materials.begin(), theirs.materials.end(), now_.setup.materials.begin(),
+                  is_as_dense)) {
+    return false;
+  }
   return !model.wants_walls() || names(theirs.bodies) == names(now_.setup.bodies);
 }
 
