@@ -272,7 +272,7 @@ TEST_CASE("a feed whose grains become denser or lighter shall go on with its mas
   }
 }
 
-TEST_CASE("sensors shall begin anew where grains weigh otherwise") {
+TEST_CASE("sensors shall begin anew where grains weigh otherwise or the fluid has other cells") {
   const TemporaryFolder folder;
   REQUIRE(run(folder / "first", "5 ms").status == 0);
   const auto begins_anew = [&](const std::string& setting) {
@@ -288,6 +288,7 @@ TEST_CASE("sensors shall begin anew where grains weigh otherwise") {
     return first && second;
   };
   CHECK(begins_anew("materials.sand.density=5300 kg/m3"));
+  CHECK(begins_anew("fluid.cells=[33, 4, 35]"));
   CHECK(!begins_anew("materials.sand.young_modulus=60 MPa"));
   CHECK(!begins_anew("fluid.viscosity=20 uPa s"));
 }

@@ -555,6 +555,9 @@ bool Branch::keeps_statistics(const std::string& name, const sdk::Sensor& model,
   if (theirs_of_name == nullptr) return false;
   if (is_changed(theirs_of_name->model.kind, theirs_of_name->model.name)) return false;
   if (!same("sensors." + name) || !same("dust") || !same("time.fluid_step")) return false;
+  // Sums by cell; and the air, which begins anew on another grid.
+  const bool has_air = now_.setup.fluid.has_value() || origin_.scenario().setup.fluid.has_value();
+  if (has_air && !is_same_grid()) return false;
   const auto names = [](const auto& things) {
     std::vector<std::string> all;
     all.reserve(things.size());
