@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -269,6 +270,38 @@ TEST_CASE("a feed whose grains become denser or lighter shall go on with its mas
     // 10 ms of 6 g/s, to three grains of 0.6 mm at the most: those that wait and half ones.
     CHECK(std::abs(emitted("branch") - before - 6e-5) < 3.0 * 5300.0 * 1.131e-10);
     fs::remove_all(folder / "branch");
+  }
+}
+
+TEST_CASE(
+    "a stream that a branch sets otherwise shall be asked for what had come and its new flow") {
+  const TemporaryFolder folder;
+  const auto feed = [&](const std::string& name) {
+    const auto summary = nlohmann::json::parse(read_file(folder / name / "summary.json"));
+    return summary["emitters"]["feed"];
+  };
+  REQUIRE(run(folder / "first", "14 ms").status == 0);
+  const std::string slower = "emitters.feed.mass_flow=2 g/s";
+  const std::vector<std::string> settings = {"start_from=" + (folder / "first").string(), slower};
+  REQUIRE(run(folder / "branch", "20 ms", settings).status == 0);
+  REQUIRE(engine({"run", k_scenario, "-o", folder / "branch", "--set", "time.end=24 ms", "--set",
+                  settings[0], "--set", slower, "--resume", "--quiet"})
+              .status == 0);
+  const double before = feed("first")["achieved"]["mass_kg"];
+  constexpr double k_grains = 3.0 * 2650.0 * 1.131e-10;  // [kg] that wait, and the half ones
+  const auto asked = [&](const std::string& name) {
+    return feed(name)["requested"]["mass_kg"].get<double>();
+  };
+  CHECK(std::abs(asked("first") - 14e-3 * 6e-3) < 1e-12);
+  CHECK(std::abs(asked("branch") - before - 10e-3 * 2e-3) < k_grains);
+  CHECK(std::abs(asked("branch") - feed("branch")["achieved"]["mass_kg"].get<double>()) < k_grains);
+  // Also in a run that goes on from the branch, by the same settings or with other sensors.
+  const std::string from = "start_from=" + (folder / "branch").string();
+  REQUIRE(run(folder / "same", "30 ms", {from, slower}).status == 0);
+  REQUIRE(run(folder / "other", "30 ms", {from, slower, "sensors.lip.enabled=false"}).status == 0);
+  for (const std::string name : {"same", "other"}) {
+    CAPTURE(name);
+    CHECK(std::abs(asked(name) - before - 16e-3 * 2e-3) < k_grains);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "base/named.hpp"
 #include "base/text.hpp"
 #include "run/branch/dust_places.hpp"
+#include "run/branch/past.hpp"
 #include "run/dust/hoods.hpp"
 #include "run/insertion/entry.hpp"
 
@@ -331,11 +332,13 @@ void Branch::give_to(Simulation& simulation) {
       diagnostics_.throw_errors();
       transfer(to);
     });
+    note_changed_emitters(simulation.insertion());
     simulation.begin_sensors(sensors_going_on_);
     simulation.begin_dust_figures();
     return;
   }
   origin_.state().read(simulation.load_parts());
+  note_changed_emitters(simulation.insertion());
   simulation.begin_dust_figures();
   report_.particles = simulation.dem().balance().in_domain;
   report_.contacts = simulation.dem().report().contacts;
@@ -421,8 +424,28 @@ void Branch::transfer_insertion(const Simulation::Owners& to) {
       before_.new_emitters.push_back(name);
       continue;
     }
+    before_.changed_emitters.push_back({.name = name});
     warn("emitters." + name +
          " is set otherwise, or its grains are: it goes on as if it had been so from the start");
+  }
+}
+
+void Branch::note_changed_emitters(const Insertion& insertion) {
+  auto& changed = before_.changed_emitters;
+  if (const auto past = load_past(origin_.state()); past.start) {
+    const CountsBefore& then = past.start->before;
+    std::vector<std::string> names = then.new_emitters;
+    for (const auto& emitter : then.changed_emitters) names.push_back(emitter.name);
+    for (const std::string& name : names) {
+      if (base::find_named(changed, name) == nullptr) changed.push_back({.name = name});
+    }
+  }
+  std::erase_if(changed, [&](const CountsBefore::ChangedEmitter& emitter) {
+    return base::find_named(now_.setup.emitters, emitter.name) == nullptr;
+  });
+  for (CountsBefore::ChangedEmitter& emitter : changed) {
+    const auto n = static_cast<std::size_t>(base::number_of(now_.setup.emitters, emitter.name));
+    emitter.mass = insertion.ledger().totals_of(n).mass + insertion.waiting_mass(n);
   }
 }
 

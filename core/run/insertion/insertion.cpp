@@ -132,6 +132,16 @@ void Insertion::insert(double time, particles::Dem& dem) {
   dem.insert(grains);
 }
 
+double Insertion::waiting_mass(std::size_t emitter) const {
+  double mass = 0.0;
+  for (const InsertionCandidate& w : waiting_) {
+    if (static_cast<std::size_t>(w.emitter) != emitter) continue;
+    const auto& material = setup_.materials[static_cast<std::size_t>(w.grain.material)];
+    mass += w.grain.weight * material.properties.density * sdk::sphere_volume(w.grain.diameter);
+  }
+  return mass;
+}
+
 std::int64_t Insertion::transfer_from(const Insertion& other) {
   std::vector<std::int32_t> emitters;
   for (const auto& theirs : other.setup_.emitters) {
