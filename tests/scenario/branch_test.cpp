@@ -482,3 +482,33 @@ TEST_CASE(
   CHECK(half ==
         dust::test::approx(0.5 * load * (1.0 - std::pow(1.0 - whole / load, 2))).epsilon(1e-6));
 }
+
+TEST_CASE("the report of dust set free in a branch shall say what its summary says") {
+  const TemporaryFolder folder;
+  const std::string scenario = DUST_SOURCE "/tests/scenario/dusty_stream.yaml";
+  // Onto a floor, which the first grains reach in the branch.
+  std::vector<std::string> settings = {"domain.boundaries.bottom.grains=wall",
+                                       "domain.boundaries.bottom.material=steel"};
+  REQUIRE(run(folder / "first", "0.15 s", settings, "1", scenario).status == 0);
+  settings.push_back("start_from=" + (folder / "first").string());
+  settings.push_back("materials.ore.dust_load=[2 %]");
+  const auto branch = run(folder / "branch", "0.3 s", settings, "1", scenario);
+  INFO(branch.err);
+  REQUIRE(branch.status == 0);
+  const auto read = [&](const char* file) {
+    return nlohmann::json::parse(read_file(folder / "branch" / file));
+  };
+  const auto causes = read("summary.json")["dust_on_grains"]["classes"]["10_um"]["set_free_by"];
+  REQUIRE(!causes.empty());
+  const auto report = read("report.json");
+  const auto table =
+      std::find_if(report["tables"].begin(), report["tables"].end(),
+                   [](const auto& one) { return one["title"] == "Dust set free from grains"; });
+  REQUIRE(table != report["tables"].end());
+  REQUIRE((*table)["rows"].size() == causes.size());
+  for (const auto& row : (*table)["rows"]) {
+    CAPTURE(row.dump());
+    CHECK(row[1].get<double>() ==
+          dust::test::approx(causes[row[0].get<std::string>()]["g_per_tonne"].get<double>()));
+  }
+}
