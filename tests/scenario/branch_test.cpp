@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -250,20 +251,79 @@ TEST_CASE("a feed whose grains become denser or lighter shall go on with its mas
   REQUIRE(run(folder / "first", "14 ms").status == 0);
   const auto emitted = [&](const char* name) {
     const auto summary = nlohmann::json::parse(read_file(folder / name / "summary.json"));
-    return summary["emitters"]["feed"]["achieved"]["mass_kg"].get<double>();  // as they came
+    const double mass = summary["emitters"]["feed"]["achieved"]["mass_kg"].get<double>();
+    // The balance, in which all grains weigh what they weigh now.
+    CHECK(mass == dust::test::approx(summary["mass_kg"]["emitted"].get<double>()).epsilon(1e-12));
+    return mass;
   };
-  const double before = emitted("first");
-  for (const std::string density : {"5300 kg/m3", "1325 kg/m3"}) {
+  const double first = emitted("first");
+  for (const auto& [density, times] :
+       {std::pair{"5300 kg/m3", 2.0}, std::pair{"1325 kg/m3", 0.5}}) {
     CAPTURE(density);
-    const auto branch = run(
-        folder / "branch", "24 ms",
-        {"start_from=" + (folder / "first").string(), "materials.sand.density=" + density}, "2");
+    const double before = times * first;
+    const auto branch = run(folder / "branch", "24 ms",
+                            {"start_from=" + (folder / "first").string(),
+                             "materials.sand.density=" + std::string(density)},
+                            "2");
     INFO(branch.err);
     REQUIRE(branch.status == 0);
     // 10 ms of 6 g/s, to three grains of 0.6 mm at the most: those that wait and half ones.
     CHECK(std::abs(emitted("branch") - before - 6e-5) < 3.0 * 5300.0 * 1.131e-10);
     fs::remove_all(folder / "branch");
   }
+}
+
+TEST_CASE(
+    "a stream that a branch sets otherwise shall be asked for what had come and its new flow") {
+  const TemporaryFolder folder;
+  const auto feed = [&](const std::string& name) {
+    const auto summary = nlohmann::json::parse(read_file(folder / name / "summary.json"));
+    return summary["emitters"]["feed"];
+  };
+  REQUIRE(run(folder / "first", "14 ms").status == 0);
+  const std::string slower = "emitters.feed.mass_flow=2 g/s";
+  const std::vector<std::string> settings = {"start_from=" + (folder / "first").string(), slower};
+  REQUIRE(run(folder / "branch", "20 ms", settings).status == 0);
+  REQUIRE(engine({"run", k_scenario, "-o", folder / "branch", "--set", "time.end=24 ms", "--set",
+                  settings[0], "--set", slower, "--resume", "--quiet"})
+              .status == 0);
+  const double before = feed("first")["achieved"]["mass_kg"];
+  constexpr double k_grains = 3.0 * 2650.0 * 1.131e-10;  // [kg] that wait, and the half ones
+  const auto asked = [&](const std::string& name) {
+    return feed(name)["requested"]["mass_kg"].get<double>();
+  };
+  CHECK(std::abs(asked("first") - 14e-3 * 6e-3) < 1e-12);
+  CHECK(std::abs(asked("branch") - before - 10e-3 * 2e-3) < k_grains);
+  CHECK(std::abs(asked("branch") - feed("branch")["achieved"]["mass_kg"].get<double>()) < k_grains);
+  // Also in a run that goes on from the branch, by the same settings or with other sensors.
+  const std::string from = "start_from=" + (folder / "branch").string();
+  REQUIRE(run(folder / "same", "30 ms", {from, slower}).status == 0);
+  REQUIRE(run(folder / "other", "30 ms", {from, slower, "sensors.lip.enabled=false"}).status == 0);
+  for (const std::string name : {"same", "other"}) {
+    CAPTURE(name);
+    CHECK(std::abs(asked(name) - before - 16e-3 * 2e-3) < k_grains);
+  }
+}
+
+TEST_CASE("sensors shall begin anew where grains weigh otherwise or the fluid has other cells") {
+  const TemporaryFolder folder;
+  REQUIRE(run(folder / "first", "5 ms").status == 0);
+  const auto begins_anew = [&](const std::string& setting) {
+    const auto branch =
+        run(folder / "branch", "7 ms", {"start_from=" + (folder / "first").string(), setting});
+    INFO(branch.err);
+    REQUIRE(branch.status == 0);
+    fs::remove_all(folder / "branch");
+    // One that sees grains and what was emitted, one that sums up cells.
+    const bool first = branch.err.find("sensors.stream begins anew") != std::string::npos;
+    const bool second = branch.err.find("sensors.suction begins anew") != std::string::npos;
+    CHECK(first == second);
+    return first && second;
+  };
+  CHECK(begins_anew("materials.sand.density=5300 kg/m3"));
+  CHECK(begins_anew("fluid.cells=[33, 4, 35]"));
+  CHECK(!begins_anew("materials.sand.young_modulus=60 MPa"));
+  CHECK(!begins_anew("fluid.viscosity=20 uPa s"));
 }
 
 TEST_CASE("a sensor that begins in a branch shall not take what was emitted before as its feed") {
@@ -421,4 +481,34 @@ TEST_CASE(
   CHECK(whole > 0.1 * load);
   CHECK(half ==
         dust::test::approx(0.5 * load * (1.0 - std::pow(1.0 - whole / load, 2))).epsilon(1e-6));
+}
+
+TEST_CASE("the report of dust set free in a branch shall say what its summary says") {
+  const TemporaryFolder folder;
+  const std::string scenario = DUST_SOURCE "/tests/scenario/dusty_stream.yaml";
+  // Onto a floor, which the first grains reach in the branch.
+  std::vector<std::string> settings = {"domain.boundaries.bottom.grains=wall",
+                                       "domain.boundaries.bottom.material=steel"};
+  REQUIRE(run(folder / "first", "0.15 s", settings, "1", scenario).status == 0);
+  settings.push_back("start_from=" + (folder / "first").string());
+  settings.push_back("materials.ore.dust_load=[2 %]");
+  const auto branch = run(folder / "branch", "0.3 s", settings, "1", scenario);
+  INFO(branch.err);
+  REQUIRE(branch.status == 0);
+  const auto read = [&](const char* file) {
+    return nlohmann::json::parse(read_file(folder / "branch" / file));
+  };
+  const auto causes = read("summary.json")["dust_on_grains"]["classes"]["10_um"]["set_free_by"];
+  REQUIRE(!causes.empty());
+  const auto report = read("report.json");
+  const auto table =
+      std::find_if(report["tables"].begin(), report["tables"].end(),
+                   [](const auto& one) { return one["title"] == "Dust set free from grains"; });
+  REQUIRE(table != report["tables"].end());
+  REQUIRE((*table)["rows"].size() == causes.size());
+  for (const auto& row : (*table)["rows"]) {
+    CAPTURE(row.dump());
+    CHECK(row[1].get<double>() ==
+          dust::test::approx(causes[row[0].get<std::string>()]["g_per_tonne"].get<double>()));
+  }
 }

@@ -5,6 +5,7 @@
 #include "base/named.hpp"
 #include "base/text.hpp"
 #include "run/branch/dust_places.hpp"
+#include "run/branch/past.hpp"
 #include "run/dust/hoods.hpp"
 #include "run/insertion/entry.hpp"
 
@@ -331,11 +332,13 @@ void Branch::give_to(Simulation& simulation) {
       diagnostics_.throw_errors();
       transfer(to);
     });
+    note_changed_emitters(simulation.insertion());
     simulation.begin_sensors(sensors_going_on_);
     simulation.begin_dust_figures();
     return;
   }
   origin_.state().read(simulation.load_parts());
+  note_changed_emitters(simulation.insertion());
   simulation.begin_dust_figures();
   report_.particles = simulation.dem().balance().in_domain;
   report_.contacts = simulation.dem().report().contacts;
@@ -421,8 +424,28 @@ void Branch::transfer_insertion(const Simulation::Owners& to) {
       before_.new_emitters.push_back(name);
       continue;
     }
+    before_.changed_emitters.push_back({.name = name});
     warn("emitters." + name +
          " is set otherwise, or its grains are: it goes on as if it had been so from the start");
+  }
+}
+
+void Branch::note_changed_emitters(const Insertion& insertion) {
+  auto& changed = before_.changed_emitters;
+  if (const auto past = load_past(origin_.state()); past.start) {
+    const CountsBefore& then = past.start->before;
+    std::vector<std::string> names = then.new_emitters;
+    for (const auto& emitter : then.changed_emitters) names.push_back(emitter.name);
+    for (const std::string& name : names) {
+      if (base::find_named(changed, name) == nullptr) changed.push_back({.name = name});
+    }
+  }
+  std::erase_if(changed, [&](const CountsBefore::ChangedEmitter& emitter) {
+    return base::find_named(now_.setup.emitters, emitter.name) == nullptr;
+  });
+  for (CountsBefore::ChangedEmitter& emitter : changed) {
+    const auto n = static_cast<std::size_t>(base::number_of(now_.setup.emitters, emitter.name));
+    emitter.mass = insertion.ledger().totals_of(n).mass + insertion.waiting_mass(n);
   }
 }
 
@@ -555,6 +578,9 @@ bool Branch::keeps_statistics(const std::string& name, const sdk::Sensor& model,
   if (theirs_of_name == nullptr) return false;
   if (is_changed(theirs_of_name->model.kind, theirs_of_name->model.name)) return false;
   if (!same("sensors." + name) || !same("dust") || !same("time.fluid_step")) return false;
+  // Sums by cell; and the air, which begins anew on another grid.
+  const bool has_air = now_.setup.fluid.has_value() || origin_.scenario().setup.fluid.has_value();
+  if (has_air && !is_same_grid()) return false;
   const auto names = [](const auto& things) {
     std::vector<std::string> all;
     all.reserve(things.size());
@@ -563,6 +589,15 @@ bool Branch::keeps_statistics(const std::string& name, const sdk::Sensor& model,
   };
   const auto& theirs = origin_.scenario().setup;
   if (names(theirs.materials) != names(now_.setup.materials)) return false;
+  // All that was emitted, counted or held weighs what its material weighs now. Other numbers of
+  // materials, as of laws, are what a branch tries: sums mean the same.
+  const auto is_as_dense = [](const auto& a, const auto& b) {
+    return a.properties.density == b.properties.density;
+  };
+  if (!std::equal(theirs.materials.begin(), theirs.materials.end(), now_.setup.materials.begin(),
+                  is_as_dense)) {
+    return false;
+  }
   return !model.wants_walls() || names(theirs.bodies) == names(now_.setup.bodies);
 }
 

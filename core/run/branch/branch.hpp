@@ -69,6 +69,9 @@ class Branch {
   void check_emitters(const Models& models);
   [[nodiscard]] bool has_same_densities(const scenario::EmitterSpec& ours,
                                         const scenario::EmitterSpec& theirs) const;
+  /// Those whose settings are not, or had not been, the same since the very beginning: what they
+  /// had brought by now was not asked for by these.
+  void note_changed_emitters(const Insertion& insertion);
   void report_obstacles(const particles::TransferObstacles& obstacles);
   [[nodiscard]] bool same(std::string_view path,
                           std::span<const std::string_view> ignored = {}) const;

@@ -4,6 +4,7 @@
 #include "dust/sdk/error.hpp"
 
 #include <cstdint>
+#include <utility>
 
 namespace dust::run {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 constexpr const char* k_warnings = "warnings";
 constexpr const char* k_counts = "counts";
 constexpr const char* k_before = "before";
+constexpr const char* k_changed = "changed_emitters";
 
 /// Texts one behind the other, a letter a number and a zero behind each.
 std::vector<std::int64_t> letters_of(const std::vector<std::string>& texts) {
@@ -60,9 +62,19 @@ CountsBefore load_before(sdk::ArchiveReader& archive) {
           .dust = numbers.at(1),
           .new_hoods = texts_of(archive.integers("new_hoods")),
           .new_emitters = texts_of(archive.integers("new_emitters")),
+          .changed_emitters = {},
           .is_field_new = counts.at(0) != 0,
           .are_loads_new = counts.at(1) != 0,
           .work = {counts.at(2), counts.at(3), counts.at(4), counts.at(5), counts.at(6)}};
+}
+
+std::vector<CountsBefore::ChangedEmitter> load_changed(sdk::ArchiveReader& archive) {
+  std::vector<CountsBefore::ChangedEmitter> changed;
+  const auto masses = archive.numbers("changed_emitter_masses");
+  for (std::string& name : texts_of(archive.integers(k_changed))) {
+    changed.push_back({std::move(name), masses.at(changed.size())});
+  }
+  return changed;
 }
 
 }  // namespace
@@ -91,6 +103,14 @@ void save_past(const Past& past, sdk::ArchiveWriter& archive) {
   archive.integers("before_counts", before_counts);
   archive.integers("new_hoods", letters_of(before.new_hoods));
   archive.integers("new_emitters", letters_of(before.new_emitters));
+  std::vector<std::string> changed;
+  std::vector<double> masses;
+  for (const CountsBefore::ChangedEmitter& emitter : before.changed_emitters) {
+    changed.push_back(emitter.name);
+    masses.push_back(emitter.mass);
+  }
+  archive.integers(k_changed, letters_of(changed));
+  archive.numbers("changed_emitter_masses", masses);
 }
 
 Past load_past(const io::StoredState& state) {
@@ -100,6 +120,9 @@ Past load_past(const io::StoredState& state) {
                  past.warnings = texts_of(a.integers(k_warnings));
                  if (state.has(k_past_part, k_counts)) past.start = load_start(a);
                  if (state.has(k_past_part, k_before)) past.start->before = load_before(a);
+                 if (state.has(k_past_part, k_changed)) {
+                   past.start->before.changed_emitters = load_changed(a);
+                 }
                }}});
   return past;
 }

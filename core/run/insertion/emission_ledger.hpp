@@ -26,13 +26,18 @@ class EmissionLedger {
   };
   explicit EmissionLedger(std::size_t emitters = 0) : lines_(emitters) {}
 
-  void enter(std::size_t emitter, double diameter, double weight, double grain_mass);
+  /// A grain of `material`, its number in the scenario, of which a real one has `grain_mass` [kg].
+  void enter(std::size_t emitter, double diameter, double weight, std::int32_t material,
+             double grain_mass);
   /// Ascending by diameter.
   [[nodiscard]] std::vector<Line> lines_of(std::size_t emitter) const;
   [[nodiscard]] Totals totals_of(std::size_t emitter) const;
 
-  /// Goes on from another's: `emitters` are the numbers here of its own, -1 = not here.
-  void transfer_from(const EmissionLedger& other, std::span<const std::int32_t> emitters);
+  /// Goes on from another's: `emitters` and `materials` are the numbers here of its own, -1 = not
+  /// here; `density` [kg/m3] by the number here. What had come weighs what it weighs here, as in
+  /// the balance of the particles.
+  void transfer_from(const EmissionLedger& other, std::span<const std::int32_t> emitters,
+                     std::span<const std::int32_t> materials, std::span<const double> density);
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
@@ -40,6 +45,7 @@ class EmissionLedger {
  private:
   struct Key {
     double diameter, weight, grain_mass;
+    std::int32_t material;  ///< -1: not known here
     // clang-tidy 14 takes the zero that <=> is compared with for a pointer.
     auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr)
   };

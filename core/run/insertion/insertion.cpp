@@ -126,9 +126,20 @@ void Insertion::insert(double time, particles::Dem& dem) {
     grains.push_back(e.grain);
     const auto& material = setup_.materials[static_cast<std::size_t>(e.grain.material)];
     ledger_.enter(static_cast<std::size_t>(e.emitter), e.grain.diameter, e.grain.weight,
+                  e.grain.material,
                   material.properties.density * sdk::sphere_volume(e.grain.diameter));
   }
   dem.insert(grains);
+}
+
+double Insertion::waiting_mass(std::size_t emitter) const {
+  double mass = 0.0;
+  for (const InsertionCandidate& w : waiting_) {
+    if (static_cast<std::size_t>(w.emitter) != emitter) continue;
+    const auto& material = setup_.materials[static_cast<std::size_t>(w.grain.material)];
+    mass += w.grain.weight * material.properties.density * sdk::sphere_volume(w.grain.diameter);
+  }
+  return mass;
 }
 
 std::int64_t Insertion::transfer_from(const Insertion& other) {
@@ -136,13 +147,18 @@ std::int64_t Insertion::transfer_from(const Insertion& other) {
   for (const auto& theirs : other.setup_.emitters) {
     emitters.push_back(base::number_of(setup_.emitters, theirs.name));
   }
-  ledger_.transfer_from(other.ledger_, emitters);
+  std::vector<std::int32_t> materials;
+  for (const auto& theirs : other.setup_.materials) {
+    materials.push_back(base::number_of(setup_.materials, theirs.name));
+  }
+  std::vector<double> density;
+  for (const auto& material : setup_.materials) density.push_back(material.properties.density);
+  ledger_.transfer_from(other.ledger_, emitters, materials, density);
   departures_ = other.departures_;  // of the same domain
   delayed_ = other.delayed_;
   for (InsertionCandidate e : other.waiting_) {
     e.emitter = emitters[static_cast<std::size_t>(e.emitter)];
-    const auto& material = other.setup_.materials[static_cast<std::size_t>(e.grain.material)];
-    e.grain.material = base::number_of(setup_.materials, material.name);
+    e.grain.material = materials[static_cast<std::size_t>(e.grain.material)];
     if (e.emitter >= 0 && e.grain.material >= 0) waiting_.push_back(e);
   }
   return static_cast<std::int64_t>(other.waiting_.size() - waiting_.size());

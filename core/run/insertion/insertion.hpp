@@ -31,6 +31,8 @@ class Insertion {
   /// waiting.
   [[nodiscard]] std::int64_t delayed() const { return delayed_; }
   [[nodiscard]] const std::vector<InsertionCandidate>& waiting() const { return waiting_; }
+  /// [kg] of those of an emitter, with their weights.
+  [[nodiscard]] double waiting_mass(std::size_t emitter) const;
   [[nodiscard]] const EmissionLedger& ledger() const { return ledger_; }
   /// Those that have left through open sides.
   [[nodiscard]] const Departures& departures() const { return departures_; }

@@ -347,7 +347,7 @@ Json report_json(const Simulation& s, const RunFacts& facts, JsonReport& report)
   r["tables"] = report.take_tables();
   add_emitter_tables(s, r["tables"]);
   add_hood_tables(s, r["tables"]);
-  add_liberation_table(s, r["tables"]);
+  add_liberation_table(s, facts, r["tables"]);
   add_energy_table(s, r["tables"]);
   add_force_table(facts.forces, r["tables"]);
   r["outline"] = report::outline_of(s.setup().domain, s.models().bodies);

@@ -23,6 +23,12 @@ struct CountsBefore {
   double mass = 0.0;  ///< [kg] emitted
   double dust = 0.0;  ///< [kg] of dust, emitted as grains and released into the air
   std::vector<std::string> new_hoods, new_emitters;
+  /// One that had brought something by other settings.
+  struct ChangedEmitter {
+    std::string name;
+    double mass = 0.0;  ///< [kg] by then, with what waited for its place
+  };
+  std::vector<ChangedEmitter> changed_emitters;
   bool is_field_new = false;
   bool are_loads_new = false;
   /// Work that another run has done and that counters hold which go on.

@@ -68,6 +68,11 @@ Json induced_air_json(const Simulation& s) {
           {"air_m3_per_s", air},   {"air_m3_per_tonne", k_tonne * air / load}};
 }
 
+/// Since when what comes off grains is counted.
+CountedSince loads_since(const RunFacts& facts) {
+  return counted_since(facts, facts.start && facts.start->before.are_loads_new);
+}
+
 }  // namespace
 
 Json dust_rule_json(const Simulation& s) {
@@ -211,8 +216,7 @@ Json dust_on_grains_json(const Simulation& s, const RunFacts& facts) {
   constexpr double k_hour = 3600.0;  // s
   const LiberationStage& stage = *s.liberation();
   const std::vector<std::string>& classes = s.dust_stage()->class_names();
-  const bool is_new = facts.start && facts.start->before.are_loads_new;
-  const CountedSince since = counted_since(facts, is_new);
+  const CountedSince since = loads_since(facts);
   const double load = s.dem().balance().mass_emitted - since.mass;
   const double time = s.time() - since.time;
   Json j = Json::object();
@@ -257,12 +261,12 @@ Json dust_estimates_json(const Simulation& s) {
   return estimates;
 }
 
-void add_liberation_table(const Simulation& s, Json& tables) {
+void add_liberation_table(const Simulation& s, const RunFacts& facts, Json& tables) {
   if (s.liberation() == nullptr) return;
   constexpr double k_grams_per_tonne = 1e6;
   const LiberationStage& stage = *s.liberation();
   const std::vector<std::string>& classes = s.dust_stage()->class_names();
-  const double load = s.dem().balance().mass_emitted;
+  const double load = s.dem().balance().mass_emitted - loads_since(facts).mass;
   std::vector<std::string> columns{"set free by"};
   for (const std::string& name : classes) columns.push_back(name + " [g per tonne]");
   Json rows = Json::array();

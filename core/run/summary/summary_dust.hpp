@@ -54,7 +54,8 @@ nlohmann::ordered_json dust_on_grains_json(const Simulation& s, const RunFacts& 
 nlohmann::ordered_json dust_estimates_json(const Simulation& s);
 
 /// A table for the report: what came off grains, by cause and class; nothing without loads.
-void add_liberation_table(const Simulation& s, nlohmann::ordered_json& tables);
+void add_liberation_table(const Simulation& s, const RunFacts& facts,
+                          nlohmann::ordered_json& tables);
 
 /// Tables for the report: what each hood has drawn out, by size.
 void add_hood_tables(const Simulation& s, nlohmann::ordered_json& tables);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary/summary_emitters.hpp"
 
+#include "base/named.hpp"
 #include "base/text.hpp"
-#include "dust/sdk/sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,35 +43,36 @@ std::vector<SizeRow> size_rows(const Simulation& s, std::size_t e) {
   return rows;
 }
 
-/// Mass [kg] a stream should have brought by now; 0 for others. One that is new in a branch was
-/// asked for nothing before.
-double requested_stream(const Simulation& s, const RunFacts& facts, std::size_t e) {
+/// Mass [kg] that a stream should have brought by now; 0 for others.
+struct Asked {
+  double before = 0.0;  ///< by other settings, in the run that this one started from: what came
+  double here = 0.0;    ///< by its settings
+  [[nodiscard]] double all() const { return before + here; }
+};
+/// By settings that are new in a branch nothing was asked for before.
+Asked asked_of(const Simulation& s, const RunFacts& facts, std::size_t e) {
   const sdk::EmitterRequest r = s.models().emitters[e]->request();
+  Asked asked;
+  if (!(r.mass_flow > 0.0)) return asked;
   double begin = r.begin;
   if (facts.start) {
-    const auto& fresh = facts.start->before.new_emitters;
-    const bool is_new =
-        std::find(fresh.begin(), fresh.end(), s.setup().emitters[e].name) != fresh.end();
-    if (is_new) begin = std::max(begin, facts.start->time);
+    const std::string& name = s.setup().emitters[e].name;
+    const CountsBefore& before = facts.start->before;
+    const auto& fresh = before.new_emitters;
+    const auto* changed = base::find_named(before.changed_emitters, name);
+    if (changed != nullptr) asked.before = changed->mass;
+    if (changed != nullptr || std::find(fresh.begin(), fresh.end(), name) != fresh.end()) {
+      begin = std::max(begin, facts.start->time);
+    }
   }
-  return r.mass_flow * std::max(0.0, std::min(s.time(), r.end) - begin);
+  asked.here = r.mass_flow * std::max(0.0, std::min(s.time(), r.end) - begin);
+  return asked;
 }
 
 std::int64_t waiting_of(const Simulation& s, std::size_t e) {
   return std::count_if(
       s.insertion().waiting().begin(), s.insertion().waiting().end(),
       [e](const InsertionCandidate& w) { return static_cast<std::size_t>(w.emitter) == e; });
-}
-
-/// [kg] of them, with their weights.
-double waiting_mass_of(const Simulation& s, std::size_t e) {
-  double mass = 0.0;
-  for (const InsertionCandidate& w : s.insertion().waiting()) {
-    if (static_cast<std::size_t>(w.emitter) != e) continue;
-    const auto& material = s.setup().materials[static_cast<std::size_t>(w.grain.material)];
-    mass += w.grain.weight * material.properties.density * sdk::sphere_volume(w.grain.diameter);
-  }
-  return mass;
 }
 
 /// A feed whose last grains wait for a fluid step has fallen short of nothing that anybody weighs.
@@ -89,7 +90,7 @@ Json emitters_json(const Simulation& s, const RunFacts& facts) {
   for (std::size_t e = 0; e < s.models().emitters.size(); ++e) {
     const auto r = s.models().emitters[e]->request();
     const auto came = s.insertion().ledger().totals_of(e);
-    const double stream = requested_stream(s, facts, e);
+    const double stream = asked_of(s, facts, e).all();
     Json j;
     j["model"] = s.setup().emitters[e].model.name;
     j["requested"] = {{"mass_flow_kg_per_s", or_null(r.mass_flow, r.mass_flow > 0.0)},
@@ -141,13 +142,12 @@ std::vector<std::string> shortfalls(const Simulation& s, const RunFacts& facts) 
   std::vector<std::string> all;
   for (std::size_t e = 0; e < s.models().emitters.size(); ++e) {
     const std::int64_t waiting = waiting_of(s, e);
-    const auto r = s.models().emitters[e]->request();
-    if (waiting_mass_of(s, e) <= k_smallest_shortfall * requested_stream(s, facts, e)) continue;
+    const Asked asked = asked_of(s, facts, e);
+    if (s.insertion().waiting_mass(e) <= k_smallest_shortfall * asked.here) continue;
     std::ostringstream text;
     text << "emitter '" << s.setup().emitters[e].name
          << "' falls short: " << base::mass_text(s.insertion().ledger().totals_of(e).mass, 4);
-    const double asked = requested_stream(s, facts, e);
-    if (asked > 0.0) text << " of " << base::mass_text(asked, 4);
+    if (asked.all() > 0.0) text << " of " << base::mass_text(asked.all(), 4);
     text << " came in; " << waiting << " grains wait because grains in the domain, or bodies that "
          << "move, take their places: make room in front of the emitter or reduce its flow";
     all.push_back(text.str());

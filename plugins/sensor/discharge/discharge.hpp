@@ -26,7 +26,8 @@ struct Rate {
 };
 
 /// Mean rate while the amount passed grows from the share `low` to the share `high` of all, so that
-/// the beginning and the trickle at the end do not count. The error comes from the rates of ten
+/// the beginning and the trickle at the end do not count; from nothing on where `low` is 0, without
+/// the time before anything passes. The error comes from the rates of ten
 /// equal parts of that time.
 /// @param time    [s] end of each sample, ascending
 /// @param passed  amount passed until then, not descending
@@ -38,7 +39,10 @@ inline Rate middle_rate(std::span<const double> time, std::span<const double> pa
     const auto at = std::lower_bound(passed.begin(), passed.end(), share * passed.back());
     return static_cast<std::size_t>(at - passed.begin());
   };
-  const std::size_t first = reach(low);
+  const auto begin = std::find_if(passed.begin(), passed.end(), [](double p) { return p > 0.0; });
+  const std::size_t first =
+      low > 0.0 ? reach(low)
+                : static_cast<std::size_t>(std::max<std::ptrdiff_t>(begin - passed.begin() - 1, 0));
   const std::size_t last = std::min(reach(high), passed.size() - 1);
   if (last <= first) return {};
   Rate rate{(passed[last] - passed[first]) / (time[last] - time[first]), -1.0};

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <limits>
+#include <vector>
 
 namespace {
 
@@ -66,8 +67,9 @@ class ResidenceTime final : public sdk::Sensor {
     double left = 0.0;
     box_.update(
         world, [&](double diameter) { return p_.takes(diameter); }, [](const sdk::Stay&) {},
-        [&](const sdk::Stay& stay, double time) {
+        [&](const sdk::Stay& stay, double gone) {
           left += stay.mass;
+          const double time = beyond_.left_at(stay.id, gone);
           const double came = since(stay, begin);
           if (time < p_.steady_after || came == sdk::Stay::k_unknown) return;
           times_.add(stay.mass, time - came);
@@ -77,12 +79,16 @@ class ResidenceTime final : public sdk::Sensor {
           world, [&](double diameter) { return p_.takes(diameter); }, [](const sdk::Stay&) {},
           [](const sdk::Stay&, double) {});
     }
+    if (!has_box(p_)) beyond_.look(world);
     oldest_ = 0.0;
+    double inside = 0.0;
     for (const sdk::Stay& stay : box_.all()) {
+      if (beyond_.holds(stay.id)) continue;
+      inside += stay.mass;
       const double came = since(stay, begin);
       if (came > sdk::Stay::k_unknown) oldest_ = std::max(oldest_, world.time - came);
     }
-    values_ = {box_.mass(), world.interval > 0.0 ? left / world.interval : 0.0};
+    values_ = {inside, world.interval > 0.0 ? left / world.interval : 0.0};
     if (world.interval > 0.0) row_.add({&values_[1], 1}, world.interval);
     if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
   }
@@ -141,7 +147,8 @@ class ResidenceTime final : public sdk::Sensor {
   }
 
   void save(sdk::ArchiveWriter& a) const override {
-    const double last[] = {values_[0], values_[1], oldest_};
+    std::vector<double> last = {values_[0], values_[1], oldest_};
+    beyond_.append_to(last);
     a.numbers("last", last);
     a.numbers("times", times_.numbers());
     box_.save(a, "box");
@@ -153,6 +160,7 @@ class ResidenceTime final : public sdk::Sensor {
     const auto last = a.numbers("last");
     values_ = {last.at(0), last.at(1)};
     oldest_ = last.at(2);
+    beyond_.take_from(last, 3);
     times_.set_numbers(a.numbers("times"));
     box_.load(a, "box");
     domain_.load(a, "domain");
@@ -180,6 +188,7 @@ class ResidenceTime final : public sdk::Sensor {
   Parameters p_;
   sdk::Stays box_;
   sdk::Stays domain_;  ///< all grains since their births; only where the time counts from there
+  formula::Beyond beyond_;  ///< only where the box is the whole domain
   formula::Distribution times_;
   double oldest_ = 0.0;             ///< [s] at the last sample
   std::array<double, 2> values_{};  ///< mass inside [kg], flow out [kg/s] at the last sample

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <dust/sdk/sampling.hpp>
 #include <dust/sdk/sensor.hpp>
+#include <dust/sdk/stays.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace dust::model::residence_time {
@@ -120,6 +123,64 @@ class Distribution {
   double first_ = 0.0;        ///< [kg s]
   double second_ = 0.0;       ///< [kg s2]
   std::vector<double> bins_;  ///< [kg] by class of time; empty before the first grain
+};
+
+/// Grains with their centre beyond the domain at the last sample, and when it crossed the side.
+/// What is beyond an open side is gone by the next sample; dust that something pressed into a wall
+/// is not, so that only the next sample tells the two apart.
+class Beyond {
+ public:
+  /// One sample; paths are straight.
+  void look(const sdk::WorldView& world) {
+    const sdk::GrainColumns& g = world.grains;
+    grains_.clear();
+    for (std::size_t i = 0; i < g.id.size(); ++i) {
+      const sdk::Path path = sdk::path_of(world, i);
+      if (!is_beyond(path.now, world)) continue;
+      const double to = sdk::part_in_box(path, world.domain_min, world.domain_max).to;
+      grains_.push_back({g.id[i], world.time - (1.0 - std::clamp(to, 0.0, 1.0)) * world.interval});
+    }
+  }
+
+  [[nodiscard]] bool holds(std::int64_t id) const { return find(id) != nullptr; }
+  /// [s] When a grain that is gone left: as it crossed the side, else at `time` [s].
+  [[nodiscard]] double left_at(std::int64_t id, double time) const {
+    const Grain* grain = find(id);
+    return grain != nullptr ? grain->exit_time : time;
+  }
+
+  /// All of the state behind other numbers, and back from number `from` on.
+  void append_to(std::vector<double>& numbers) const {
+    for (const Grain& grain : grains_) {
+      numbers.insert(numbers.end(), {static_cast<double>(grain.id), grain.exit_time});
+    }
+  }
+  void take_from(const std::vector<double>& numbers, std::size_t from) {
+    grains_.clear();
+    for (std::size_t n = from; n + 1 < numbers.size(); n += 2) {
+      grains_.push_back({static_cast<std::int64_t>(numbers[n]), numbers[n + 1]});
+    }
+  }
+
+ private:
+  struct Grain {
+    std::int64_t id = 0;
+    double exit_time = 0.0;  ///< [s]
+  };
+  static bool is_beyond(sdk::Vec3 x, const sdk::WorldView& world) {
+    for (int d = 0; d < 3; ++d) {
+      if (x[d] < world.domain_min[d] || x[d] > world.domain_max[d]) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] const Grain* find(std::int64_t id) const {
+    const auto at =
+        std::lower_bound(grains_.begin(), grains_.end(), id,
+                         [](const Grain& g, std::int64_t wanted) { return g.id < wanted; });
+    return at != grains_.end() && at->id == id ? &*at : nullptr;
+  }
+
+  std::vector<Grain> grains_;  ///< ascending by id
 };
 
 /// [s] Mean residence time of a steady flow by what it holds: \f$ \bar t = M / \dot m \f$ (Little

@@ -75,7 +75,7 @@ class SettlingVelocity final : public sdk::Sensor {
     values_ = {velocity, height};
     has_grains_ = true;
     if (velocity > largest_[0]) largest_ = {velocity, world.time};
-    is_down_ = is_down_ || height < p_.until;
+    is_down_ = is_down_ || (p_.until > 0.0 && height < p_.until);
     if (sdk::is_after(world, p_.steady_after) && !is_down_) {
       means_.add({&velocity, 1}, world.interval);
     }

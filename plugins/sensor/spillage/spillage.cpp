@@ -90,8 +90,10 @@ class Spillage final : public sdk::Sensor {
     constexpr double k_grams_per_tonne = 1e6;
     const double reason = why_none(emitted);
     const double per_mass = reason < 0.0 ? sdk::k_no_value : k_grams_per_tonne / emitted;
-    sink.figure("rate", formula::per_hour(steady_, duration_), "kg/h",
-                error < 0.0 ? -1.0 : formula::per_hour(error, duration_),
+    const double rate = formula::per_hour(steady_, duration_);
+    sink.figure("rate", rate, "kg/h",
+                sdk::error_beside(
+                    rate, error < 0.0 ? sdk::k_no_estimate : formula::per_hour(error, duration_)),
                 sdk::overview(sdk::Quantity::mass_rate, 1));
     sink.figure("grams_per_tonne", steady_ * per_mass, "g/t",
                 reason < 0.0  ? reason

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <dust/sdk/error.hpp>
+#include <dust/sdk/sensor.hpp>
 #include <dust/sdk/vec3.hpp>
 
 #include <cmath>
@@ -34,9 +35,9 @@ constexpr sdk::Vec3 unit_vector(int axis) {
   return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
 }
 
-/// [kg/h] of `mass` [kg] in `duration` [s].
+/// [kg/h] of `mass` [kg] in `duration` [s]; sdk::k_no_value where nothing was observed.
 constexpr double per_hour(double mass, double duration) {
-  return duration > 0.0 ? k_seconds_per_hour * mass / duration : 0.0;
+  return duration > 0.0 ? k_seconds_per_hour * mass / duration : sdk::k_no_value;
 }
 
 /// One standard error [kg] of a counted mass: grains that come one by one scatter like a Poisson

@@ -7,8 +7,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <vector>
 
 using dust::test::approx;
 using namespace dust::test;
@@ -110,6 +113,23 @@ TEST_CASE("grains that fall back into a hopper through a periodic side shall cou
   CHECK(number_at(0.1, top - 0.1e-3) == 1.0);
   CHECK(number_at(0.1, 0.3e-3) == 0.0);   // above where it was
   CHECK(number_at(0.12, 0.1e-3) == 0.0);  // beside the hole
+}
+
+TEST_CASE("a rate from the first of the mass on shall not count the time before that passes") {
+  // Nothing for 0.1 s, then two a sample of 1 ms.
+  std::vector<double> time;
+  std::vector<double> passed;
+  for (int n = 1; n <= 300; ++n) {
+    time.push_back(1e-3 * n);
+    passed.push_back(2.0 * std::max(n - 100, 0));
+  }
+  for (const double low : {0.0, 0.2}) {
+    CAPTURE(low);
+    CHECK(formula::middle_rate(time, passed, low, 1.0).value == approx(2000.0).epsilon(1e-9));
+  }
+  // What passes from the first sample on counts from there: when it began is not known.
+  CHECK(formula::middle_rate(std::span(time).subspan(100), std::span(passed).subspan(100), 0.0, 1.0)
+            .value == approx(2000.0).epsilon(1e-9));
 }
 
 TEST_CASE("the error of a rate shall cover the truth at its frequency for a random stream") {

@@ -35,6 +35,7 @@ TEST_CASE("means over no time shall be no number") {
        {"mass_held", "inflow", "outflow"}},
       {"bubbles", {{"min", low}, {"max", high}, {"threshold", 0.9}}, {"number", "volume_share"}},
       {"stress", {{"min", low}, {"max", high}}, {"xx", "yz", "pressure", "bulk_density"}},
+      {"spillage", {{"min", low}, {"max", Vec3{0.1, 0.1, 0.0}}}, {"rate", "grams_per_tonne"}},
       {"residence_time", {{"min", low}, {"max", high}}, {"mass_inside", "mass_flow_out"}},
       {"wall_load", {{"walls", std::vector<std::string>{"belt"}}}, {"force_x", "impact_rate"}},
   };

@@ -68,6 +68,22 @@ TEST_CASE("settling_velocity shall not take a bounce for settling") {
   CHECK(summary_of(*sensor)["velocity"] == test::approx(0.2));
 }
 
+TEST_CASE("settling_velocity without an end of its means shall take them below its base as well") {
+  // The base above the grains, as one that is not given where the domain lies below the origin.
+  const auto mean_with = [](const std::map<std::string, sdk::Value>& until) {
+    auto values = until;
+    values["base"] = Vec3{0, 0, 0.1};
+    values["steady_after"] = 0.1;
+    SyntheticScene world;
+    const auto sensor = load_sensor("settling_velocity").make(values);
+    fall(world, *sensor, 0.25);
+    CHECK(series_of(*sensor)["height"] == test::approx(-0.09).epsilon(k_linear));
+    return summary_of(*sensor)["velocity"];
+  };
+  CHECK(mean_with({}) == test::approx(0.2).epsilon(1e-9));
+  CHECK(mean_with({{"until", 0.0}}) == test::approx(0.2).epsilon(1e-9));
+}
+
 TEST_CASE("settling_velocity shall follow its direction and begin anew with the grains") {
   SyntheticScene world;
   world.gravity = {0, 0, 0};

@@ -197,6 +197,34 @@ TEST_CASE("a time from birth shall hold the way to the box as well") {
   CHECK(run("entering", false) == test::approx(0.1105).epsilon(1e-9));
 }
 
+TEST_CASE("in the whole domain a time shall end where a grain crosses an open side") {
+  SyntheticScene world;
+  // Dust that is pressed into the bottom with its centre now and then comes back out of it.
+  world.grains.push_back(at({0.1, 0.005, 1e-4}, {}, 2e-3));
+  world.grains.push_back(at({0.0507, 0.005, 0.1}, {2.0, 0, 0}, 1e-3));
+  auto sensor = load_sensor("residence_time").make({});
+  for (int s = 0; s < 200; ++s) {
+    // What is beyond a side at the end of a step is gone before the next one.
+    const bool is_leaving = world.grains.back().now.x > world.domain_max.x;
+    if (is_leaving) world.grains.pop_back();
+    move_on(world);
+    world.grains.front().now.z = s % 3 == 0 ? -1e-5 : 1e-4;
+    if (is_leaving) {
+      MemoryArchive archive;
+      sensor->save(archive);
+      sensor = load_sensor("residence_time").make({});
+      sensor->load(archive);
+    }
+    step(*sensor, world);
+    const bool is_inside = world.grains.size() > 1 && world.grains.back().now.x < 0.33;
+    if (s % 3 != 0) CHECK(series_of(*sensor)["mass_inside"] == (is_inside ? 3e-3 : 2e-3));
+  }
+  const Figures figures = summary_of(*sensor);
+  CHECK(figures["grains"] == 1.0);
+  CHECK(figures["mean"] == test::approx((0.33 - 0.0507) / 2.0).epsilon(1e-9));
+  CHECK(figures["longest_inside"] == test::approx(0.2).epsilon(1e-9));
+}
+
 TEST_CASE("what left before the means begin shall not count, what is still inside shall be told") {
   const auto sensor =
       load_sensor("residence_time").make({{"min", k_min}, {"max", k_max}, {"steady_after", 0.2}});
