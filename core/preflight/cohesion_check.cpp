@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace dust::preflight {
@@ -88,15 +89,43 @@ void check_rest(const Setup& setup, const PairLaws& law, const scenario::Interac
                           ", or a weaker attraction");
 }
 
+/// `volume` of a law that has `relative_volume`, too: the same limit holds for both. The reading of
+/// scenarios knows the two names, too (take_moisture).
+void check_volume(const scenario::InteractionSpec& spec, const Pair& pair,
+                  const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
+  const registry::Entry* entry = registry.find("cohesion", spec.cohesion->name);
+  if (entry == nullptr) return;
+  const auto& parameters = entry->info.parameters;
+  const auto relative =
+      std::ranges::find(parameters, std::string("relative_volume"), &sdk::Parameter::name);
+  const auto absolute = std::ranges::find(parameters, std::string("volume"), &sdk::Parameter::name);
+  if (relative == parameters.end() || absolute == parameters.end()) return;
+  const auto at = static_cast<std::size_t>(absolute - parameters.begin());
+  if (at >= spec.cohesion->values.size()) return;
+  const double* volume = std::get_if<double>(&spec.cohesion->values[at]);
+  const double unit = std::pow(2.0 * pair.radius, 3);
+  const double largest = relative->range.high;
+  if (volume == nullptr || !(*volume > largest * unit * (1.0 + 1e-9))) return;
+  const auto cubic_millimetres = [](double v) { return base::digits_text(1e9 * v, 3) + " mm3"; };
+  diagnostics.error(
+      spec.cohesion->where,
+      spec.cohesion->path + ".volume: " + cubic_millimetres(*volume) + " is " +
+          base::plain_text(*volume / unit, 3) + " (2 R*)^3 of the smallest pair (R* " +
+          base::length_text(pair.radius) + "); bridges are small and apart from each other up to " +
+          base::digits_text(largest, 3) + ": give at most " + cubic_millimetres(largest * unit) +
+          ", or relative_volume, which gives each pair a bridge of its size");
+}
+
 }  // namespace
 
 void check_cohesion(const Setup& setup, const ParticleModels& models,
-                    scenario::Diagnostics& diagnostics) {
+                    const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
   const std::vector<double> diameters = smallest_diameters(setup, models);
   for (std::size_t n = 0; n < models.laws.size(); ++n) {
     const scenario::InteractionSpec& spec = setup.interactions[n];
     const Pair pair = smallest_pair(models.laws[n], diameters);
     if (!spec.cohesion || !(pair.radius < k_none)) continue;
+    check_volume(spec, pair, registry, diagnostics);
     check_rest(setup, models.laws[n], spec, pair, diagnostics);
   }
 }

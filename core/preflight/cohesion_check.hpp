@@ -2,6 +2,7 @@
 #pragma once
 
 #include "preflight/particle_models.hpp"
+#include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/setup.hpp"
 
@@ -12,8 +13,9 @@ namespace dust::preflight {
 inline constexpr double k_deep_at_rest = 0.1;
 
 /// Looks at cohesive laws with the smallest pair of each: warns where grains pull themselves deeper
-/// into each other than k_deep_at_rest, with the stiffness that holds them.
+/// into each other than k_deep_at_rest, with the stiffness that holds them, and refuses a `volume`
+/// of bridges that is larger than such pairs have room for.
 void check_cohesion(const scenario::Setup& setup, const ParticleModels& models,
-                    scenario::Diagnostics& diagnostics);
+                    const registry::Registry& registry, scenario::Diagnostics& diagnostics);
 
 }  // namespace dust::preflight

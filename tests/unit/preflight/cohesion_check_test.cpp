@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grains that are too soft for what holds them together.
+// Grains that are too soft for what holds them together, and bridges too large for them.
 #include "base/error.hpp"
 #include "support/approx.hpp"
 #include "unit/scenario/support.hpp"
@@ -130,4 +130,26 @@ TEST_CASE("the pull of linear springs shall be held against their own stiffness"
   CHECK(tells(text, "pull themselves 45 % of R* into each other"));
   CHECK(tells(text, "make interactions[0].contact at least 5 times as stiff"));
   CHECK(with("10 N/m") == "");
+}
+
+TEST_CASE("bridges too large for the smallest grains of their law shall be refused") {
+  const auto bridges = [](int pair, const std::string& volume) {
+    return std::vector<scenario::Override>{
+        {"interactions[" + std::to_string(pair) + "].cohesion",
+         "{model: liquid_bridge, surface_tension: 72 mN/m, volume: " + volume + "}"}};
+  };
+  // R* 1 mm: 0.1 (2 R*)^3 is 0.8 mm3. The powder is none of this law's.
+  CHECK(powder_said(bridges(2, "0.79 mm3")).errors == std::vector<std::string>{});
+  const PowderSaid large = powder_said(bridges(2, "10 mm3"));
+  REQUIRE(large.errors.size() == 1);
+  INFO(large.errors[0]);
+  CHECK(tells(large.errors[0],
+              "error: interactions[2].cohesion.volume: 10 mm3 is 1.25 (2 R*)^3 of "
+              "the smallest pair (R* 1 mm)"));
+  CHECK(tells(large.errors[0], "up to 0.1: give at most 0.8 mm3, or relative_volume"));
+  // On a wall R* is the radius: 6.4 mm3.
+  CHECK(powder_said(bridges(4, "6.3 mm3")).errors == std::vector<std::string>{});
+  CHECK(powder_said(bridges(4, "6.5 mm3")).errors.size() == 1);
+  // Rock with powder: R* is nearly the powder's radius.
+  CHECK(powder_said(bridges(1, "0.5 mm3")).errors.size() == 1);
 }
