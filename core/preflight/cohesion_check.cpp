@@ -61,8 +61,8 @@ double overlap_at_rest(const Setup& setup, const PairLaws& law, double radius) {
   const auto& j = setup.materials[static_cast<std::size_t>(law.material_j)].properties;
   const double force = 4.0 / 3.0 * sdk::effective_young_modulus(i, j) * std::sqrt(radius) *
                        elastic * std::sqrt(elastic);
-  // A spring's collision takes pi sqrt(m* / k), of any mass.
-  const double frequency = std::numbers::pi / law.contact->collision_time(radius, 1.0, 1.0);
+  // Half a period is pi sqrt(m* / k), of any mass.
+  const double frequency = std::numbers::pi / law.contact->half_period(radius, 1.0, 0.0);
   return force / (frequency * frequency);
 }
 

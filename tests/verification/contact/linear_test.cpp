@@ -90,6 +90,44 @@ TEST_CASE("a bed of low restitution on linear springs shall come to rest at the 
   }
 }
 
+TEST_CASE("the densest packing of low restitution shall come to rest on linear springs") {
+  // Twelve neighbours each, without friction: the normal dampers alone.
+  constexpr double diameter = 0.01;
+  for (const double restitution : {0.3, 0.2, 0.1, 0.03, 0.01}) {
+    DemRig rig;
+    const int m = rig.material(2650, 20e6, 0.3);
+    rig.laws_of(m, m, hooke(1e4, restitution));
+    rig.diameters = {diameter};
+    const double side = 0.999 * std::sqrt(2.0) * diameter;
+    rig.setup.domain.min = {0, 0, 0};
+    rig.setup.domain.max = {4 * side, 4 * side, 4 * side};
+    for (const int axis : {0, 1, 2}) rig.periodic(axis);
+    auto dem = rig.make();
+    const Vec3 corners[] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+    const dust::sdk::Random random(5, dust::sdk::stream_of("dense"));
+    std::vector<NewGrain> grains;
+    Vec3 sum;
+    for (std::uint32_t n = 0; n < 256; ++n) {
+      const Vec3 cell{n / 4 % 4 + 0.25, n / 16 % 4 + 0.25, n / 64 + 0.25};
+      Vec3 velocity;
+      for (std::uint32_t d = 0; d < 3; ++d) velocity[d] = 1e-6 * random.uniform(n, 0, d);
+      sum = sum + velocity;
+      grains.push_back(
+          {.position = side * (cell + corners[n % 4]), .velocity = velocity, .diameter = diameter});
+    }
+    for (NewGrain& g : grains) g.velocity = g.velocity - sum / 256.0;
+    dem->insert(grains);
+    Stepper stepper(*dem);
+    while (stepper.time() < 0.1) stepper.step();
+    double fastest = 0.0;
+    for (std::int64_t id = 0; id < 256; ++id) {
+      fastest = std::max(fastest, norm(grain(*dem, id).velocity));
+    }
+    CAPTURE(restitution);
+    CHECK(fastest < 1e-12);  // of 1e-6
+  }
+}
+
 TEST_CASE("a hooke impact shall return the declared restitution in the oscillator's time") {
   // A contact begins and ends within a step: an error of first order in the step, 1/400 of the
   // contact here.
