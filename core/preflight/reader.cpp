@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/reader.hpp"
 
+#include "preflight/cohesion_check.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/dust_check.hpp"
 #include "preflight/emissions.hpp"
@@ -51,6 +52,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_bodies_at_periodic_sides(read.setup, models, diagnostics);
   check_belts(read.setup, models, diagnostics);
   check_reach(read.setup, models, diagnostics);
+  check_cohesion(read.setup, models, registry, diagnostics);
   check_softness(read.setup, models, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);
   check_sensor_places(read.setup, models.bodies, registry, diagnostics);

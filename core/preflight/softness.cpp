@@ -78,30 +78,6 @@ std::string modulus_text(double pascal) {
   return base::digits_text(rounded, 3) + " Pa";
 }
 
-/// What to write so that E* of a pair is `factor` times as large.
-std::string stiffer_materials(const Setup& setup, const scenario::InteractionSpec& pair,
-                              double factor) {
-  const bool is_first_softer = properties_of(setup, pair.material_i).young_modulus <=
-                               properties_of(setup, pair.material_j).young_modulus;
-  const int soft = is_first_softer ? pair.material_i : pair.material_j;
-  const int hard = is_first_softer ? pair.material_j : pair.material_i;
-  const MaterialProperties& a = properties_of(setup, soft);
-  const MaterialProperties& b = properties_of(setup, hard);
-  const auto share = [](const MaterialProperties& p) {
-    return 1.0 - p.poisson_ratio * p.poisson_ratio;
-  };
-  const double wanted = factor * sdk::effective_young_modulus(a, b);
-  const double alone = share(a) / (1.0 / wanted - share(b) / b.young_modulus);
-  const bool is_enough = soft != hard && alone > 0.0 && alone <= b.young_modulus;
-  std::string text = "give materials." + name_of(setup, soft) + ".young_modulus";
-  if (soft != hard && !is_enough) text += " and that of " + name_of(setup, hard);
-  text += " at least " + modulus_text(is_enough ? alone : wanted * (share(a) + share(b)));
-  if (a.young_modulus < k_hardly_meant) {
-    text += " (it is " + modulus_text(a.young_modulus) + ": was MPa meant?)";
-  }
-  return text;
-}
-
 /// "12 % of their radius", "83 times their radius".
 std::string overlap_text(double ratio) {
   if (ratio < 1.0) return base::digits_text(100.0 * ratio, 2) + " % of their radius";
@@ -130,6 +106,29 @@ ImpactOverlap softest_impact(const Setup& setup, const ParticleModels& models, d
     }
   }
   return softest;
+}
+
+std::string stiffer_materials(const Setup& setup, const scenario::InteractionSpec& pair,
+                              double factor) {
+  const bool is_first_softer = properties_of(setup, pair.material_i).young_modulus <=
+                               properties_of(setup, pair.material_j).young_modulus;
+  const int soft = is_first_softer ? pair.material_i : pair.material_j;
+  const int hard = is_first_softer ? pair.material_j : pair.material_i;
+  const MaterialProperties& a = properties_of(setup, soft);
+  const MaterialProperties& b = properties_of(setup, hard);
+  const auto share = [](const MaterialProperties& p) {
+    return 1.0 - p.poisson_ratio * p.poisson_ratio;
+  };
+  const double wanted = factor * sdk::effective_young_modulus(a, b);
+  const double alone = share(a) / (1.0 / wanted - share(b) / b.young_modulus);
+  const bool is_enough = soft != hard && alone > 0.0 && alone <= b.young_modulus;
+  std::string text = "give materials." + name_of(setup, soft) + ".young_modulus";
+  if (soft != hard && !is_enough) text += " and that of " + name_of(setup, hard);
+  text += " at least " + modulus_text(is_enough ? alone : wanted * (share(a) + share(b)));
+  if (a.young_modulus < k_hardly_meant) {
+    text += " (it is " + modulus_text(a.young_modulus) + ": was MPa meant?)";
+  }
+  return text;
 }
 
 std::string stiffness_advice(const Setup& setup, const ImpactOverlap& impact) {

@@ -32,8 +32,12 @@ inline constexpr double k_warned_overlap = 0.3;
 ImpactOverlap softest_impact(const scenario::Setup& setup, const ParticleModels& models,
                              double speed);
 
-/// What to write so that this impact overlaps by k_soft_overlap: "give materials.sand.young_modulus
-/// at least 24 MPa".
+/// What to write so that E* of a pair is `factor` times as large: "give
+/// materials.sand.young_modulus at least 24 MPa".
+std::string stiffer_materials(const scenario::Setup& setup, const scenario::InteractionSpec& pair,
+                              double factor);
+
+/// What to write so that this impact overlaps by k_soft_overlap.
 std::string stiffness_advice(const scenario::Setup& setup, const ImpactOverlap& impact);
 
 /// Warns where grains are so soft at the expected speed that they overlap by more than

@@ -18,7 +18,7 @@ DUST_KERNEL void evaluate_batch(const formula::Constants& constants, const sdk::
   for (std::size_t q = 0; q < b.count; ++q) {
     seen[q] = overlap[q];
     const double resistance = formula::resistance(k, radius[q], -overlap[q]);
-    attraction[q] = formula::attraction(resistance, speed[q], mass[q], time_step);
+    attraction[q] = formula::attraction(k, resistance, speed[q], mass[q], time_step);
   }
 }
 
@@ -61,7 +61,8 @@ class Lubrication final : public sdk::CohesionLaw {
                 "doi:10.1017/S0022112084000355"};
   }
 
-  explicit Lubrication(const Parameters& p) : constants_{p.viscosity, p.smallest_gap, p.reach} {
+  explicit Lubrication(const Parameters& p)
+      : constants_{p.viscosity, p.smallest_gap, p.reach, formula::largest_resistance(p.reach)} {
     if (!(p.reach > p.smallest_gap)) {
       throw sdk::ParameterError(
           "reach must lie above smallest_gap, for the film acts between the two: give less of the "

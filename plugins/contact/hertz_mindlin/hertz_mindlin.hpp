@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../spin_damping.hpp"
+
 #include <dust/sdk/contact_plane.hpp>
 
 #include <algorithm>
@@ -26,11 +28,6 @@ struct Constants {
 inline constexpr double k_phase_excess = 3.5 / 12.0;  ///< h in k_t dt^2 / m*
 inline constexpr double k_max_phase_excess = 0.1;     ///< [-] h where steps are too long for it
 inline constexpr double k_damper_lead = 5.5;          ///< [h]
-
-/// Largest tangential damper [m*/dt]. Its spin damps a grain at the rate 2.5 sum(gamma_t) / m, and
-/// a velocity that is predicted over half a step (Adams-Bashforth) is stable below 1/dt: enough for
-/// ten equal neighbours. Beyond it a bed of low restitution would keep on shivering.
-inline constexpr double k_max_tangential_damping = 0.05;
 
 /// Damping number: \f$ -2 \beta \sqrt{5/6} \f$ with \f$ \beta = \ln e / \sqrt{\ln^2 e + \pi^2} \f$,
 /// 0 < e <= 1. Exact as long as the normal force may attract while the contact opens.

@@ -91,10 +91,10 @@ class Hooke final : public sdk::ContactLaw {
     evaluate_batch(constants_, batch);
   }
   [[nodiscard]] double collision_time(double, double mass, double) const override {
-    return formula::collision_time(constants_.stiffness, mass);
+    return formula::collision_time(constants_.stiffness, constants_.damping, mass);
   }
   [[nodiscard]] double half_period(double, double mass, double) const override {
-    return formula::collision_time(constants_.stiffness, mass);
+    return formula::elastic_time(constants_.stiffness, mass);
   }
 
  private:

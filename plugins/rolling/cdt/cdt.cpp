@@ -62,7 +62,7 @@ class Cdt final : public dust::model::RollingFriction {
         .version = "1.0",
         .summary =
             "Constant couple against the relative rolling velocity. Holds no grain on a slope: it "
-            "creeps at 5 g sin(theta) dt. For heaps and grains at rest take epsd2.",
+            "creeps at 20 g sin(theta) dt. For heaps and grains at rest take epsd2.",
         .equation = "M = -\\mu_r R^* |F_n|\\,\\omega_r / |\\omega_r|",
         .source =
             "Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269 (model A), "

@@ -12,6 +12,9 @@ enum class NormalisedBy {
   rotation  ///< the whole, with its part about the normal: the couple is smaller
 };
 
+/// Largest couple [m* R*^2 omega/dt], for the sake of grains with several contacts.
+inline constexpr double k_stop = 0.05;
+
 /// One contact. n: unit normal, w: angular velocity of i relative to j [rad/s], m: couple on i [N
 /// m], out.
 struct Rolling {
@@ -24,19 +27,21 @@ struct Rolling {
 
 /// Constant couple against the relative rolling velocity:
 /// \f$ M = -\mu_r R^* |F_n|\, \omega_r / |\omega_r| \f$, but at most
-/// \f$ \tfrac15 m^* R^{*2} |\omega_r| / \Delta t \f$. \f$ \omega_r \f$ is the relative angular
+/// \f$ \tfrac1{20} m^* R^{*2} |\omega_r| / \Delta t \f$. \f$ \omega_r \f$ is the relative angular
 /// velocity without its part about the normal.
 ///
-/// The second bound takes at most half of the rotation in a step: 2/5 m* R*^2 is never above the
-/// inertia of the relative rotation of two spheres. The rate a law sees is carried half a step
-/// ahead, so that a couple which took all of it would leave the rate swinging from step to step; at
-/// half of it both modes die out, by 0.64 and 0.39 a step, and a grain comes to rest (own
-/// derivation).
+/// The second bound takes at most an eighth of the rotation in a step: 2/5 m* R*^2 is never above
+/// the inertia of the relative rotation of two spheres. The rate a law sees is carried half a step
+/// ahead, which is stable while the couples of all contacts of a grain take less than the whole of
+/// it in a step. They add up: two walls of a corner brake each axis, and so do eight of twelve
+/// equal neighbours, of each a 32nd and twice that where neighbours turn against each other; the
+/// tangential dampers brake the spin as well. At half a rotation for each contact a grain in a
+/// corner would spin for ever (own derivation).
 ///
 /// The couple vanishes with the velocity: it cannot hold a grain on a slope. Below the threshold,
 /// \f$ \tan\theta < \mu_r \f$, the second bound balances the weight,
-/// \f$ \tfrac15 m R^2 \omega / \Delta t = m g R \sin\theta \f$ with \f$ v = \omega R \f$, and the
-/// grain creeps at \f$ v = 5 g \sin\theta\, \Delta t \f$ (own derivation; verified in
+/// \f$ \tfrac1{20} m R^2 \omega / \Delta t = m g R \sin\theta \f$ with \f$ v = \omega R \f$, and
+/// the grain creeps at \f$ v = 20 g \sin\theta\, \Delta t \f$ (own derivation; verified in
 /// tests/verification/contact). Without the bound, as in other codes, the couple of constant size
 /// changes its sign from step to step, and holds the grain as little. For heaps take epsd2.
 /// Source: model A of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
@@ -57,7 +62,7 @@ template <NormalisedBy by = NormalisedBy::rolling>
   const double speed = k_is_whole ? std::sqrt(c.wx * c.wx + c.wy * c.wy + c.wz * c.wz)
                                   : std::sqrt(rx * rx + ry * ry + rz * rz);
   const double limit = friction * c.radius * std::abs(c.normal_force);
-  const double stop = 0.2 * c.mass * c.radius * c.radius / time_step;
+  const double stop = k_stop * c.mass * c.radius * c.radius / time_step;
   // Zero without load, also for a grain that turns.
   const double slope = std::min(limit / std::max(speed, k_tiny), stop);
   c.mx = -slope * rx;

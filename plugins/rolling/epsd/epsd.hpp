@@ -17,6 +17,12 @@ struct Constants {
   double damping_ratio = 0.0;  ///< [-] eta_r
 };
 
+/// Largest dashpot [I/dt], I that of the relative rotation. Those of a grain's contacts add up, the
+/// tangential dampers brake its spin as well, and a velocity that is predicted over half a step
+/// (Adams-Bashforth) is stable below 1/dt: eight of twelve neighbours brake each axis. Without a
+/// bound a grain in a corner of three walls would spin for ever, from mu_r = 1 on.
+inline constexpr double k_max_dashpot = 0.07;
+
 /// One contact. n: unit normal, w: angular velocity of i relative to j [rad/s], a: rotation of i
 /// relative to j since the last look [rad], v: velocity of i relative to j at the contact point
 /// [m/s], f: force on i [N], s: couple of the spring on i [N m], in and out, m: couple on i [N m],
@@ -70,12 +76,13 @@ struct Rolling {
 /// Couple of an elastic-plastic spring with a dashpot below full mobilisation:
 /// \f$ \Delta M_s = -k_r \Delta\theta_r,\; k_r = 2.25 k_n \mu_r^2 R^{*2},\;
 /// |M_s| \le \mu_r R^* |F_n| \f$, k_n being the mean over the step (second order); \f$ M_d = -2
-/// \eta_r \sqrt{I_r k_r}\, \omega_r \f$ while \f$ |M_s| \f$ is below its limit, else 0; the limit
-/// holds for the sum, too. \f$ \omega_r \f$ is the relative angular velocity without its part about
-/// the normal, \f$ I_r \f$ that of the two about their contact, \f$ 1/I_r = 5/(7 m_i R_i^2) +
-/// 5/(7 m_j R_j^2) \f$. M_s turns with the contact and keeps its length. A damped contact pulls
-/// before it ends: where F_n goes through zero, so does M_s, which begins anew. Source: model C of
-/// Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269, doi:10.1016/j.powtec.2010.09.030.
+/// \eta_r \sqrt{I_r k_r}\, \omega_r \f$ while \f$ |M_s| \f$ is below its limit, else 0, bounded by
+/// k_max_dashpot; the limit holds for the sum, too. \f$ \omega_r \f$ is the relative angular
+/// velocity without its part about the normal, \f$ I_r \f$ that of the two about their contact, \f$
+/// 1/I_r = 5/(7 m_i R_i^2) + 5/(7 m_j R_j^2) \f$. M_s turns with the contact and keeps its length.
+/// A damped contact pulls before it ends: where F_n goes through zero, so does M_s, which begins
+/// anew. Source: model C of Ai, Chen, Rotter, Ooi, Powder Technol. 206 (2011) 269,
+/// doi:10.1016/j.powtec.2010.09.030.
 [[gnu::always_inline]] inline void evaluate(const Constants& k, double time_step,
                                             const TurningSides& sides, Rolling& c) {
   constexpr double k_tiny = 1e-290;
@@ -103,7 +110,8 @@ struct Rolling {
   const double inertia = 3.5 * sides.inertia;
   const double above_before = std::sqrt(spring.squared_before) - limit - reach * fall;
   const double damped = part_below_limit(above_before, size - limit, c.last_stiffness < 0.0);
-  const double damping = damped * 2.0 * k.damping_ratio * std::sqrt(inertia * kr);
+  const double damping = damped * std::min(2.0 * k.damping_ratio * std::sqrt(inertia * kr),
+                                           sides.inertia * (k_max_dashpot / time_step));
   c.last_stiffness = cut < 1.0 ? -c.stiffness : c.stiffness;
   const sdk::Vec3 w = rolling_velocity(time_step, excess, sides, c);
   const Couple by_force = couple_of_force(lever_of_force(excess, sides), {c.nx, c.ny, c.nz},

@@ -43,7 +43,7 @@ class Gaussian final : public sdk::VoidageRule {
     int cells = 1;
     for (int d = 0; d < 3; ++d) {
       const double sigma = formula::deviation(width_, 2.0 * radius, grid.spacing[d]);
-      cells *= static_cast<int>(2.0 * formula::k_reach * sigma / grid.spacing[d]) + 2;
+      cells *= formula::most_cells(sigma, grid.spacing[d]);
     }
     return cells;
   }
@@ -78,7 +78,7 @@ class Gaussian final : public sdk::VoidageRule {
       for (std::size_t j = 0; j < y.weights().size(); ++j) {
         for (std::size_t i = 0; i < x.weights().size(); ++i) {
           const double weight = x.weights()[i] * y.weights()[j] * z.weights()[k];
-          if (weight <= 0.0) continue;
+          if (weight <= formula::k_nothing) continue;
           out.add(x.first() + static_cast<int>(i), y.first() + static_cast<int>(j),
                   z.first() + static_cast<int>(k), weight);
         }

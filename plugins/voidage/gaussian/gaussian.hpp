@@ -18,6 +18,17 @@ inline double deviation(double width, double diameter, double spacing) {
   return std::max(width * diameter, k_min_cells * spacing);
 }
 
+/// Shares below this are what rounding leaves of a cell that the kernel's end only touches.
+inline constexpr double k_nothing = 1e-14;
+
+/// Largest number of cells along one axis that a kernel of the standard deviation `sigma` [m]
+/// reaches into. Three deviations to either side are often a whole number of cells: a little more
+/// than rounding takes from it is added, or one cell would be missing.
+inline int most_cells(double sigma, double spacing) {
+  constexpr double k_rounding = 1e-6;
+  return static_cast<int>(2.0 * k_reach * sigma / spacing + k_rounding) + 2;
+}
+
 /// Shares of the cells along one axis of a truncated Gaussian; they sum to 1.
 class Shares {
  public:

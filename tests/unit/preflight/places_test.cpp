@@ -211,7 +211,7 @@ TEST_CASE("a body that moves to a periodic side shall be refused with when") {
 TEST_CASE("laws that reach through both periodic sides shall be refused") {
   const scenario::Override wet = {
       "interactions[0].cohesion",
-      "{model: liquid_bridge, surface_tension: 72 mN/m, volume: 1e-8}"};  // reaches 2.15 mm
+      "{model: lubrication, viscosity: 1 mPa s, reach: 2.15}"};  // 2.15 mm, of R* = 1 mm
   const std::vector<scenario::Override> narrow = {{"domain.max", "[12.1, 50, 200 mm]"},
                                                   {"bodies.shelf.enabled", "false"},
                                                   {"emitters.feed.mass_flow", "0.1 kg/s"},
@@ -236,9 +236,8 @@ TEST_CASE("a load on walls that a side and a body share the name of shall be ref
 }
 
 TEST_CASE("a law that reaches farther than grains are thick shall be asked for its unit") {
-  // 1 ml in place of 1 mm3.
-  const Said drops = said({{"interactions[0].cohesion",
-                            "{model: liquid_bridge, surface_tension: 72 mN/m, volume: 1e-6}"}});
+  const Said drops =
+      said({{"interactions[0].cohesion", "{model: lubrication, viscosity: 1 mPa s, reach: 10}"}});
   REQUIRE(drops.warnings.size() == 1);
   CHECK(drops.warnings[0].find("interactions[0].cohesion: reaches 10 mm beyond touch, farther than "
                                "the smallest grains are thick (4 mm)") != std::string::npos);

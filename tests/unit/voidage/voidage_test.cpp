@@ -226,6 +226,44 @@ TEST_CASE("a Gaussian grain shall have its centre and width, and move without a 
   }
 }
 
+TEST_CASE("a kernel as wide as whole cells shall not take one more than it declares") {
+  // Of a fine grain three deviations to either side are three cells, but for rounding, and both
+  // ends fall on borders of cells where it lies in the middle of one.
+  struct Domain {
+    double min, max;
+    int cells;
+  };
+  const double radius = 0.25e-3;
+  for (const auto [origin, end, cells] :
+       {Domain{-0.3, -0.16, 50}, {-0.3, -0.2, 29}, {0, 0.14, 50}, {1.7, 1.8, 30}}) {
+    const double spacing = (end - origin) / cells;
+    const sdk::GridShape grid{
+        {origin, origin, origin}, {spacing, spacing, spacing}, {cells, cells, cells}};
+    const Rule gaussian{test::make_model<sdk::VoidageRule>("voidage", "gaussian"), grid};
+    const int capacity = gaussian.rule->capacity(grid, radius);
+    // Room for what is beyond.
+    std::vector<int> i(1000), j(1000), k(1000);
+    std::vector<double> weight(1000);
+    int most = 0;
+    double smallest = 1.0;
+    for (int n = 2; n < cells - 2; ++n) {
+      // Micrometres are what a scenario would say.
+      const double exact = origin + (n + 0.5) * spacing;
+      for (const double at : {exact, std::round(exact * 1e6) / 1e6}) {
+        const sdk::Vec3 p{at, at, at};
+        int used = 0;
+        gaussian.rule->spread(grid, {1, &p.x, &p.y, &p.z, &radius, capacity, &used, i.data(),
+                                     j.data(), k.data(), weight.data()});
+        most = std::max(most, used);
+        for (int m = 0; m < used; ++m) smallest = std::min(smallest, weight[m]);
+      }
+    }
+    CAPTURE(origin);
+    CHECK(most <= capacity);
+    CHECK(smallest > 1e-14);
+  }
+}
+
 TEST_CASE("a grain inside one cell shall lie in that cell alone") {
   const Rule rule{test::make_model<sdk::VoidageRule>("voidage", "divided"), k_grid};
   const auto shares = rule.shares({-1.0 + 0.1 * 3.5, 0.5 + 0.13 * 2.5, 2.0 + 0.17 * 0.5}, 1e-3);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The film between two grains: what it takes from their approach.
+#include "dust/sdk/random.hpp"
 #include "support/approx.hpp"
 #include "verification/cohesion/sticky.hpp"
 
 #include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
@@ -61,6 +65,25 @@ Approach approach(double other, double speed, double until, double step) {
   return out;
 }
 
+/// Grains of 20 um in water as dense as they can lie, almost in touch, in random motion.
+std::vector<NewGrain> dense_grains(double diameter, double gap) {
+  const double side = diameter * (1.0 + gap) * std::sqrt(2.0);
+  const Vec3 corners[] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+  const dust::sdk::Random random(1, dust::sdk::stream_of("film"));
+  std::vector<NewGrain> grains;
+  for (std::uint32_t cell = 0; cell < 27; ++cell) {
+    const Vec3 at{cell % 3 * 1.0, cell / 3 % 3 * 1.0, cell / 9 * 1.0};
+    for (const Vec3& corner : corners) {
+      Vec3 velocity;
+      const auto n = static_cast<std::uint32_t>(grains.size());
+      for (std::uint32_t d = 0; d < 3; ++d) velocity[d] = 2e-3 * random.uniform(n, 0, d) - 1e-3;
+      grains.push_back(
+          {.position = side * (at + corner), .velocity = velocity, .diameter = diameter});
+    }
+  }
+  return grains;
+}
+
 }  // namespace
 
 TEST_CASE("a film shall take from two grains that approach the speed of its closed form") {
@@ -76,9 +99,9 @@ TEST_CASE("a film shall take from two grains that approach the speed of its clos
       share[half] = (2.0 - a.speed) / expected;
     }
     CAPTURE(other);
-    CHECK(share[0] == approx(1.0).epsilon(0.02));
-    // First order in the step, as the force is taken: the error halves with it.
-    CHECK(2.0 * share[1] - share[0] == approx(1.0).epsilon(2e-3));
+    CHECK(share[0] == approx(1.0).epsilon(5e-3));
+    // Second order in the step: a film that the step resolves is not slowed by its bound.
+    CHECK((4.0 * share[1] - share[0]) / 3.0 == approx(1.0).epsilon(2e-4));
   }
 }
 
@@ -101,6 +124,43 @@ TEST_CASE("a film far stiffer than the step shall stop a pair and not throw it b
   const Approach stiff = approach(k_r, 0.05, 0.0, 1e-4);
   CHECK(stiff.gap > 0.0);
   CHECK(std::abs(stiff.speed) < 0.05);
+}
+
+TEST_CASE("films of twelve neighbours shall give no grain energy, however long the step") {
+  // K dt/m* is some 0.2, 2 and 20 in the first gaps: films that each took the speed of their pair
+  // in a step would take twelve times what there is.
+  constexpr double diameter = 20e-6;
+  for (const double viscosity : {1e-3, 1e-2, 0.1}) {
+    Sticky s({"lubrication", {{"viscosity", viscosity}, {"smallest_gap", k_smallest}}}, 0.5, 0.3);
+    s.rig.diameters = {diameter};
+    s.rig.setup.time.dem_step = 2e-8;
+    auto dem = s.rig.make();
+    dem->insert(dense_grains(diameter, 5e-4));
+    const auto energy = [&] {
+      double sum = 0.0;
+      for (std::int64_t id = 0; id < 108; ++id) {
+        const GrainState g = grain(*dem, id);
+        sum +=
+            dot(g.velocity, g.velocity) + 0.1 * diameter * diameter * dot(g.rotation, g.rotation);
+      }
+      return sum;
+    };
+    const double start = energy();
+    double before = start;
+    double growth = 0.0;
+    Stepper stepper(*dem);
+    while (stepper.time() < 2e-5) {
+      stepper.step();
+      const double now = energy();
+      growth = std::max(growth, now - before);
+      before = now;
+    }
+    CAPTURE(viscosity);
+    CAPTURE(before / start);
+    // What contacts give back of the little they took.
+    CHECK(growth < 1e-3 * start);
+    CHECK(before < 0.3 * start);
+  }
 }
 
 TEST_CASE("grains in a film shall keep their momentum and lose energy in touch and parting") {

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The linear spring-dashpot against closed forms: the damped oscillator, the rebound of a hard
 // sphere, two compressed spheres between planes (set-ups of the MFiX cases DEM01 to DEM04).
+#include "dust/sdk/random.hpp"
 #include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <vector>
 
 using dust::particles::NewGrain;
 using dust::sdk::Vec3;
@@ -24,7 +28,105 @@ double mass_of(double radius, double density) {
   return density * 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
 
+/// Kinetic energy over weight times diameter that three in four spheres of 1 cm are below, which
+/// have fallen into a box and lain there for a while at the default step. The others may spin in
+/// their place: nothing here stops that.
+double motion_left(const DemRig::Choice& law, double time) {
+  constexpr double diameter = 0.01;
+  DemRig rig;
+  const int m = rig.material(2650, 20e6, 0.3);
+  rig.laws_of(m, m, law, {"epsd2", {{"friction", 0.2}}});
+  rig.diameters = {diameter};
+  rig.setup.gravity = {0, 0, -9.81};
+  rig.setup.time.expected_speed = 1.0;
+  rig.setup.domain.min = {0, 0, 0};
+  rig.setup.domain.max = {0.05, 0.05, 0.2};
+  for (int side = 0; side < 5; ++side) rig.wall(side, m);
+  auto dem = rig.make();
+  const dust::sdk::Random random(3, dust::sdk::stream_of("bed"));
+  std::vector<NewGrain> grains;
+  for (std::uint32_t n = 0; n < 96; ++n) {
+    Vec3 at{n % 4 * 1.0, n / 4 % 4 * 1.0, n / 16 * 1.0};
+    for (std::uint32_t d = 0; d < 3; ++d) at[d] += 0.55 + 0.08 * random.uniform(n, 0, d);
+    grains.push_back({.position = 0.012 * at, .diameter = diameter});
+  }
+  dem->insert(grains);
+  Stepper stepper(*dem);
+  while (stepper.time() < time) stepper.step();
+  std::vector<double> energies;
+  for (std::int64_t id = 0; id < 96; ++id) {
+    const GrainState g = grain(*dem, id);
+    energies.push_back(0.5 * dot(g.velocity, g.velocity) +
+                       0.05 * diameter * diameter * dot(g.rotation, g.rotation));
+  }
+  std::ranges::sort(energies);
+  return energies[72] / (9.81 * diameter);
+}
+
 }  // namespace
+
+TEST_CASE("a bed of low restitution on linear springs shall come to rest at the default step") {
+  struct Row {
+    double restitution, ratio, friction;
+  };
+  // The tangential dampers of a grain's contacts add up, and so do the normal ones: without a bound
+  // up to a fifth of weight times diameter is left for ever. Springs swing out slowly.
+  constexpr double k_swings = 1e-7;
+  for (const Row& r : {Row{0.3, 1.0, 0.5},
+                       {0.1, 2.0 / 7.0, 0.5},
+                       {0.1, 1.0, 0.5},
+                       {0.01, 2.0 / 7.0, 0.5},
+                       {0.01, 1.0, 0.5},
+                       {0.01, 2.0 / 7.0, 0.0}}) {
+    CAPTURE(r.restitution);
+    CAPTURE(r.ratio);
+    CAPTURE(r.friction);
+    CHECK(motion_left({"hooke",
+                       {{"normal_stiffness", 1e4},
+                        {"tangential_stiffness_ratio", r.ratio},
+                        {"restitution", r.restitution},
+                        {"friction", r.friction}}},
+                      1.5) < k_swings);
+  }
+}
+
+TEST_CASE("the densest packing of low restitution shall come to rest on linear springs") {
+  // Twelve neighbours each, without friction: the normal dampers alone.
+  constexpr double diameter = 0.01;
+  for (const double restitution : {0.3, 0.2, 0.1, 0.03, 0.01}) {
+    DemRig rig;
+    const int m = rig.material(2650, 20e6, 0.3);
+    rig.laws_of(m, m, hooke(1e4, restitution));
+    rig.diameters = {diameter};
+    const double side = 0.999 * std::sqrt(2.0) * diameter;
+    rig.setup.domain.min = {0, 0, 0};
+    rig.setup.domain.max = {4 * side, 4 * side, 4 * side};
+    for (const int axis : {0, 1, 2}) rig.periodic(axis);
+    auto dem = rig.make();
+    const Vec3 corners[] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
+    const dust::sdk::Random random(5, dust::sdk::stream_of("dense"));
+    std::vector<NewGrain> grains;
+    Vec3 sum;
+    for (std::uint32_t n = 0; n < 256; ++n) {
+      const Vec3 cell{n / 4 % 4 + 0.25, n / 16 % 4 + 0.25, n / 64 + 0.25};
+      Vec3 velocity;
+      for (std::uint32_t d = 0; d < 3; ++d) velocity[d] = 1e-6 * random.uniform(n, 0, d);
+      sum = sum + velocity;
+      grains.push_back(
+          {.position = side * (cell + corners[n % 4]), .velocity = velocity, .diameter = diameter});
+    }
+    for (NewGrain& g : grains) g.velocity = g.velocity - sum / 256.0;
+    dem->insert(grains);
+    Stepper stepper(*dem);
+    while (stepper.time() < 0.1) stepper.step();
+    double fastest = 0.0;
+    for (std::int64_t id = 0; id < 256; ++id) {
+      fastest = std::max(fastest, norm(grain(*dem, id).velocity));
+    }
+    CAPTURE(restitution);
+    CHECK(fastest < 1e-12);  // of 1e-6
+  }
+}
 
 TEST_CASE("a hooke impact shall return the declared restitution in the oscillator's time") {
   // A contact begins and ends within a step: an error of first order in the step, 1/400 of the
