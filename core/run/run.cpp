@@ -206,11 +206,33 @@ class Run {
   }
 
   void open_files() {
+    if (is_resumed_) {
+      // What cannot be gone on with is refused before anything of the run is changed.
+      open_results();
+    }
     base::log_to_file(folder_ / "run.log", is_resumed_);
     for (const std::string& line : facts_.log_header) base::log_info(line);
     // On the terminal they stand since the scenario was read.
     for (const std::string& warning : facts_.warnings) base::log_info(warning);
     io::write_text(folder_ / "scenario.yaml", scenario_.resolved_yaml);
+    if (is_resumed_) {
+      base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
+      return;
+    }
+    open_results();
+    if (facts_.start) log_start();
+    print_bodies();
+    print_steps();
+    print_moisture();
+    write_frame();
+    io::write_text(folder_ / "series.csv-metadata.json",
+                   series_metadata(simulation_).dump(1) + "\n");
+    // Means that sensors take over rows have not begun yet, or go on from another run's.
+    append_first_row();
+    checkpoint();
+  }
+
+  void open_results() {
     std::vector<std::string> materials;
     for (const auto& m : simulation_.setup().materials) materials.push_back(m.name);
     const auto& domain = simulation_.setup().domain;
@@ -218,20 +240,6 @@ class Run {
                                                  simulation_.models().bodies, materials, domain.min,
                                                  domain.max);
     series_ = std::make_unique<io::SeriesFile>(folder_ / "series.csv", is_resumed_ ? rows_ : -1);
-    if (facts_.start && !is_resumed_) log_start();
-    if (is_resumed_) {
-      base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
-    } else {
-      print_bodies();
-      print_steps();
-      print_moisture();
-      write_frame();
-      io::write_text(folder_ / "series.csv-metadata.json",
-                     series_metadata(simulation_).dump(1) + "\n");
-      // Means that sensors take over rows have not begun yet, or go on from another run's.
-      append_first_row();
-      checkpoint();
-    }
   }
 
   /// What meshes say of themselves, and how fine they are beside the grains.
