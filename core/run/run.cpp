@@ -209,6 +209,7 @@ class Run {
     if (is_resumed_) {
       // What cannot be gone on with is refused before anything of the run is changed.
       open_results();
+      drop_end();
     }
     base::log_to_file(folder_ / "run.log", is_resumed_);
     for (const std::string& line : facts_.log_header) base::log_info(line);
@@ -240,6 +241,15 @@ class Run {
                                                  simulation_.models().bodies, materials, domain.min,
                                                  domain.max);
     series_ = std::make_unique<io::SeriesFile>(folder_ / "series.csv", is_resumed_ ? rows_ : -1);
+  }
+
+  /// What was written when the run ended before: one that is killed now has not ended.
+  void drop_end() const {
+    for (const char* name : {"summary.json", "report.json", "report.html"}) {
+      std::error_code problem;
+      fs::remove(folder_ / name, problem);
+      if (problem) throw base::WriteError(folder_ / name, problem.value());
+    }
   }
 
   /// What meshes say of themselves, and how fine they are beside the grains.

@@ -187,6 +187,26 @@ TEST_CASE("resuming to an end that has passed shall be refused and change nothin
   CHECK(run("8 ms", "--resume").status == 0);
 }
 
+TEST_CASE("a finished run whose continuation is killed shall not count as finished") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  REQUIRE(engine({"run", k_scenario, "-o", out, "--set", "time.end=8 ms", "--quiet"}).status == 0);
+  // Nothing is left to do: it ends once more.
+  REQUIRE(engine({"run", k_scenario, "-o", out, "--set", "time.end=8 ms", "--resume", "--quiet"})
+              .status == 0);
+  CHECK(json_text(out / "summary.json", "status") == "finished");
+  CHECK(fs::exists(out / "report.html"));
+  const std::string rows = read_file(out / "series.csv");
+  const auto killed =
+      engine_interrupted_when({"run", k_scenario, "-o", out, "--resume", "--quiet"}, SIGKILL,
+                              [&] { return read_file(out / "series.csv").size() > rows.size(); });
+  CHECK(killed.status == 128 + SIGKILL);
+  for (const char* file : {"summary.json", "report.json", "report.html"}) {
+    CAPTURE(file);
+    CHECK_FALSE(fs::exists(out / file));
+  }
+}
+
 TEST_CASE("a resume that lacks a frame or a row shall be refused and change nothing") {
   const TemporaryFolder folder;
   const fs::path out = folder / "out";
