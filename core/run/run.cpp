@@ -373,7 +373,7 @@ class Run {
     if (live_ != nullptr) live_->publish_progress(simulation_, facts_, Pace(simulation_.time()));
     base::log_info("status: " + facts_.status);
     results_.reset();
-    if (has_summary && !is_disk_bad_) survives([this] { report::write_report(folder_); });
+    if (has_summary && !is_disk_bad_) write_report();
     if (facts_.status == "failed") {
       log_failure();
       return 1;
@@ -385,6 +385,17 @@ class Run {
       return 128 + static_cast<int>(g_signal);
     }
     return 0;
+  }
+
+  /// Its page can be made again at any time: the run is none the worse.
+  void write_report() const {
+    try {
+      report::write_report(folder_);
+    } catch (const std::exception& e) {
+      base::log_warning(std::string("the report is not written: ") + e.what() +
+                        "; write it again with 'engine report " +
+                        base::shell_word(folder_.string()) + "'");
+    }
   }
 
   /// The next estimate knows what this run took. A short run says more of the start than of the

@@ -231,6 +231,23 @@ TEST_CASE("a resume that lacks a frame or a row shall be refused and change noth
   check_refused("frame 0 of the ");
 }
 
+TEST_CASE("a report that cannot be written shall be a warning beside a run that has finished") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  // In the way of the name under which the page is written first.
+  fs::create_directories(out / "report.html.part/x");
+  const auto run =
+      engine({"run", k_scenario, "-o", out, "--set", "time.end=2 ms", "--force", "--quiet"});
+  CHECK(run.status == 0);
+  CHECK(run.err.find("the run failed") == std::string::npos);
+  CHECK(run.err.find("write it again with 'engine report " + out.string() + "'") !=
+        std::string::npos);
+  CHECK(json_text(out / "summary.json", "status") == "finished");
+  fs::remove_all(out / "report.html.part");
+  CHECK(engine({"report", out}).status == 0);
+  CHECK(fs::exists(out / "report.html"));
+}
+
 TEST_CASE("resuming without a checkpoint shall be refused with a remedy") {
   const TemporaryFolder folder;
   const auto run = engine({"run", k_scenario, "-o", folder / "none", "--resume"});
