@@ -48,6 +48,7 @@ constexpr Named k_always[] = {
     {"real_particles.in_domain", "1"},
     {"real_particles.left", "1"},
     {"real_particles.removed", "1"},
+    {"real_particles.max", "1"},
     {"mass_kg.emitted", "kg"},
     {"mass_kg.in_domain", "kg"},
     {"mass_kg.left", "kg"},
