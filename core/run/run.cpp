@@ -554,10 +554,8 @@ Models make_models_of(const scenario::ReadResult& read, const registry::Registry
 
 /// The files and folders that a run reads.
 std::vector<fs::path> inputs_of(const RunOptions& options, const scenario::ReadResult& read) {
-  std::vector<fs::path> inputs{options.scenario};
-  inputs.insert(inputs.end(), options.set_files.begin(), options.set_files.end());
-  if (read.start.from) inputs.push_back(read.start.from->folder);
-  // Meshes and tables that models read, by whatever key.
+  std::vector<fs::path> inputs = read_paths(read);
+  // Meshes and tables that models read without saying that it is a file.
   const fs::path beside = options.scenario.parent_path();
   for (const std::string& value : io::ScenarioLeaves(read.resolved_yaml).values()) {
     std::error_code none;

@@ -246,6 +246,26 @@ TEST_CASE("force shall replace a run and nothing else") {
   CHECK(read_file(out / "summary.json") == before);
 }
 
+TEST_CASE("force shall keep what the scenario includes and what is laid over it") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  REQUIRE(engine({"run", k_scenario, "-o", out, "--set", k_short, "--quiet"}).status == 0);
+  const std::string kept = read_file(out / "scenario.yaml");
+  { std::ofstream(folder / "over.yaml") << "include: out/scenario.yaml\nseed: 7\n"; }
+  { std::ofstream(folder / "above.yaml") << "include: over.yaml\n"; }
+  const std::string lost = (out / "scenario.yaml").string() + ", which this run reads";
+  for (const std::vector<std::string>& how : std::vector<std::vector<std::string>>{
+           {folder / "above.yaml"}, {k_scenario, "--set-file", folder / "over.yaml"}}) {
+    std::vector<std::string> arguments{"run", "-o", out, "--force", "--quiet"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    const auto refused = engine(arguments);
+    INFO(refused.err);
+    CHECK(refused.status == 2);
+    CHECK(refused.err.find(lost) != std::string::npos);
+    CHECK(read_file(out / "scenario.yaml") == kept);
+  }
+}
+
 TEST_CASE("a comparison shall be written over no file but a page") {
   const TemporaryFolder folder;
   const fs::path run = folder / "run";
