@@ -42,7 +42,7 @@ struct NewGrain {
 /// Counts and masses; `real_*` and masses count each computed grain with its weight.
 struct Balance {
   std::int64_t emitted = 0, in_domain = 0, left = 0, removed = 0, max = 0;
-  double real_emitted = 0, real_in_domain = 0, real_left = 0, real_removed = 0;
+  double real_emitted = 0, real_in_domain = 0, real_left = 0, real_removed = 0, real_max = 0;
   double mass_emitted = 0, mass_in_domain = 0, mass_left = 0, mass_removed = 0;  ///< [kg]
 };
 

@@ -14,6 +14,7 @@
 #include "preflight/places/resolved_check.hpp"
 #include "preflight/places/sensor_places.hpp"
 #include "preflight/places/suction_cover.hpp"
+#include "preflight/sensor_look.hpp"
 #include "preflight/softness.hpp"
 #include "scenario/diagnostics.hpp"
 
@@ -56,6 +57,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_softness(read.setup, models, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);
   check_sensor_places(read.setup, models.bodies, registry, diagnostics);
+  check_first_looks(read.setup, models.class_diameters, registry, diagnostics);
 }
 
 /// Looks at what was read without errors.

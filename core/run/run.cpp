@@ -206,11 +206,34 @@ class Run {
   }
 
   void open_files() {
+    if (is_resumed_) {
+      // What cannot be gone on with is refused before anything of the run is changed.
+      open_results();
+      drop_end();
+    }
     base::log_to_file(folder_ / "run.log", is_resumed_);
     for (const std::string& line : facts_.log_header) base::log_info(line);
     // On the terminal they stand since the scenario was read.
     for (const std::string& warning : facts_.warnings) base::log_info(warning);
     io::write_text(folder_ / "scenario.yaml", scenario_.resolved_yaml);
+    if (is_resumed_) {
+      base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
+      return;
+    }
+    open_results();
+    if (facts_.start) log_start();
+    print_bodies();
+    print_steps();
+    print_moisture();
+    write_frame();
+    io::write_text(folder_ / "series.csv-metadata.json",
+                   series_metadata(simulation_).dump(1) + "\n");
+    // Means that sensors take over rows have not begun yet, or go on from another run's.
+    append_first_row();
+    checkpoint();
+  }
+
+  void open_results() {
     std::vector<std::string> materials;
     for (const auto& m : simulation_.setup().materials) materials.push_back(m.name);
     const auto& domain = simulation_.setup().domain;
@@ -218,19 +241,14 @@ class Run {
                                                  simulation_.models().bodies, materials, domain.min,
                                                  domain.max);
     series_ = std::make_unique<io::SeriesFile>(folder_ / "series.csv", is_resumed_ ? rows_ : -1);
-    if (facts_.start && !is_resumed_) log_start();
-    if (is_resumed_) {
-      base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");
-    } else {
-      print_bodies();
-      print_steps();
-      print_moisture();
-      write_frame();
-      io::write_text(folder_ / "series.csv-metadata.json",
-                     series_metadata(simulation_).dump(1) + "\n");
-      // Means that sensors take over rows have not begun yet, or go on from another run's.
-      append_first_row();
-      checkpoint();
+  }
+
+  /// What was written when the run ended before: one that is killed now has not ended.
+  void drop_end() const {
+    for (const char* name : {"summary.json", "report.json", "report.html"}) {
+      std::error_code problem;
+      fs::remove(folder_ / name, problem);
+      if (problem) throw base::WriteError(folder_ / name, problem.value());
     }
   }
 
@@ -355,7 +373,7 @@ class Run {
     if (live_ != nullptr) live_->publish_progress(simulation_, facts_, Pace(simulation_.time()));
     base::log_info("status: " + facts_.status);
     results_.reset();
-    if (has_summary && !is_disk_bad_) survives([this] { report::write_report(folder_); });
+    if (has_summary && !is_disk_bad_) write_report();
     if (facts_.status == "failed") {
       log_failure();
       return 1;
@@ -367,6 +385,17 @@ class Run {
       return 128 + static_cast<int>(g_signal);
     }
     return 0;
+  }
+
+  /// Its page can be made again at any time: the run is none the worse.
+  void write_report() const {
+    try {
+      report::write_report(folder_);
+    } catch (const std::exception& e) {
+      base::log_warning(std::string("the report is not written: ") + e.what() +
+                        "; write it again with 'engine report " +
+                        base::shell_word(folder_.string()) + "'");
+    }
   }
 
   /// The next estimate knows what this run took. A short run says more of the start than of the
@@ -525,10 +554,8 @@ Models make_models_of(const scenario::ReadResult& read, const registry::Registry
 
 /// The files and folders that a run reads.
 std::vector<fs::path> inputs_of(const RunOptions& options, const scenario::ReadResult& read) {
-  std::vector<fs::path> inputs{options.scenario};
-  inputs.insert(inputs.end(), options.set_files.begin(), options.set_files.end());
-  if (read.start.from) inputs.push_back(read.start.from->folder);
-  // Meshes and tables that models read, by whatever key.
+  std::vector<fs::path> inputs = read_paths(read);
+  // Meshes and tables that models read without saying that it is a file.
   const fs::path beside = options.scenario.parent_path();
   for (const std::string& value : io::ScenarioLeaves(read.resolved_yaml).values()) {
     std::error_code none;

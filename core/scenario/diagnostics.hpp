@@ -20,6 +20,9 @@ class Diagnostics {
   };
   /// Files in the order in which their problems are told.
   void add_file(const std::string& file);
+  /// A file that is part of the scenario or study: its own, one that it includes, one laid over it.
+  void note_document(const std::string& file) { documents_.push_back(file); }
+  [[nodiscard]] const std::vector<std::string>& documents() const { return documents_; }
   /// A file that an engine wrote, whose bare numbers are meant in SI.
   void note_resolved_file(const std::string& file) { resolved_files_.insert(file); }
   [[nodiscard]] bool is_resolved_file(const std::string& file) const {
@@ -53,6 +56,7 @@ class Diagnostics {
   [[nodiscard]] std::size_t rank(const std::string& file) const;
 
   std::vector<std::string> files_;
+  std::vector<std::string> documents_;
   std::set<std::string> resolved_files_;
   std::vector<Problem> errors_;
   std::vector<Problem> warnings_;

@@ -167,7 +167,9 @@ std::optional<ReadResult> read_file(const fs::path& file, const std::vector<Over
   if (!root || is_study(*root, file, diagnostics)) return std::nullopt;
   if (root->where.line == 0) root->where = {file.generic_string(), 1, 1};
   for (const Override& override : overrides) apply_override(*root, override, diagnostics);
-  return read_tree(*root, file, registry, diagnostics);
+  auto read = read_tree(*root, file, registry, diagnostics);
+  if (read) read->documents = diagnostics.documents();
+  return read;
 }
 
 std::optional<ReadResult> read_tree(const Node& root, const fs::path& file,

@@ -28,9 +28,10 @@ struct ReadResult {
   StartSetup start;
   std::vector<ReferenceSpec> references;         ///< of enabled sensors
   std::vector<ReferenceCurve> reference_curves;  ///< of enabled sensors
-  std::vector<std::string> files;     ///< that models read, as `resolved_yaml` names them
-  std::string resolved_yaml;          ///< includes merged, overrides applied, defaults written out
-  std::vector<std::string> warnings;  ///< "file:line:column: warning: ..."
+  std::vector<std::string> documents;  ///< the scenario, what it includes and what is laid over it
+  std::vector<std::string> files;      ///< that models read, as `resolved_yaml` names them
+  std::string resolved_yaml;           ///< includes merged, overrides applied, defaults written out
+  std::vector<std::string> warnings;   ///< "file:line:column: warning: ..."
 };
 
 /// The name of a scenario or study whose file gives none: a folder name that works everywhere, in

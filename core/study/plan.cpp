@@ -124,6 +124,7 @@ struct Planner::Impl {
   std::vector<std::set<std::pair<int, int>>> axis_marks;
   std::set<std::size_t> reported_axes;
   std::map<std::string, sdk::Dimension> dimensions;
+  std::set<std::filesystem::path> read_paths = {};  ///< by the points
 
   void read_base() {
     base = scenario::read_with_includes(spec.base, diagnostics);
@@ -191,6 +192,7 @@ struct Planner::Impl {
     point.seed = seed;
     point.resolved_yaml = read->resolved_yaml;
     point.hash = hash_of(*read, digests.of(*read));
+    for (std::filesystem::path& path : run::read_paths(*read)) read_paths.insert(std::move(path));
     const auto derived =
         preflight::derive(read->setup, registry, read->dust, begin_of(read->start, registry));
     point.core_seconds = derived.cost.terms.seconds();
@@ -373,6 +375,7 @@ Plan Planner::plan() {
   }
   if (plan.points.empty()) impl_->look_without_faulty();
   plan.outputs = impl_->measures.columns();
+  plan.read_paths = impl_->read_paths;
   if (impl_->diagnostics.has_errors()) return plan;
   for (std::size_t a = 0; a < impl_->spec.axes.size(); ++a) impl_->add_inputs(a, plan);
   return plan;
@@ -400,6 +403,7 @@ Plan Planner::calibration_columns() {
     if (!impl_->resolve(root, impl_->seed_of(1))) return plan;
   }
   plan.outputs = impl_->measures.columns();
+  plan.read_paths = impl_->read_paths;
   if (impl_->diagnostics.has_errors()) return plan;
   for (const FreeParameter& p : calibration.parameters) {
     const auto found = impl_->dimensions.find(without_index(p.paths.front()));

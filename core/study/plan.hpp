@@ -5,8 +5,10 @@
 #include "study/spec/spec.hpp"
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,6 +57,7 @@ struct Plan {
   std::vector<InputColumn> inputs;
   std::vector<OutputColumn> outputs;
   std::vector<Point> points;
+  std::set<std::filesystem::path> read_paths;  ///< files and folders that the points read
 };
 
 /// Resolves a study against its base scenario.

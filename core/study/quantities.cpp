@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
+#include "preflight/sensor_look.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
 #include "setup/force_kinds.hpp"
@@ -48,6 +49,7 @@ constexpr Named k_always[] = {
     {"real_particles.in_domain", "1"},
     {"real_particles.left", "1"},
     {"real_particles.removed", "1"},
+    {"real_particles.max", "1"},
     {"mass_kg.emitted", "kg"},
     {"mass_kg.in_domain", "kg"},
     {"mass_kg.left", "kg"},
@@ -156,12 +158,7 @@ std::vector<Quantity> quantities_of(const scenario::Setup& setup, const scenario
   all.insert(all.end(), of_dust.begin(), of_dust.end());
 
   const std::vector<double> classes = diameters_of(setup, registry);
-  sdk::WorldView world;
-  world.interval = setup.time.fluid_step;
-  world.domain_min = setup.domain.min;
-  world.domain_max = setup.domain.max;
-  world.gravity = setup.gravity;
-  world.class_diameters = classes;
+  const sdk::WorldView world = preflight::empty_world(setup, classes);
   for (const auto& spec : setup.sensors) {
     const auto sensor = registry.create_as<sdk::Sensor>(spec.model);
     sensor->observe(world);

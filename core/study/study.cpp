@@ -283,7 +283,10 @@ int run_study(const StudyOptions& options) {
     std::fprintf(stderr, "%s\n", warning.c_str());
   }
   if (options.launcher == "slurm" && !options.dry_run) check_slurm();
-  const fs::path folder = choose_study_folder(options, spec->name);
+  // The study's own file, that of its base and what these include, then what the points read.
+  std::vector<fs::path> inputs(diagnostics.documents().begin(), diagnostics.documents().end());
+  inputs.insert(inputs.end(), plan.read_paths.begin(), plan.read_paths.end());
+  const fs::path folder = choose_study_folder(options, spec->name, inputs);
   if (options.resume) {
     const PointStore store(folder);
     refuse_changed_models(plan, store, registry);

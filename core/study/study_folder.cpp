@@ -66,11 +66,11 @@ fs::path named_or_numbered(const StudyOptions& options, const std::string& name)
 
 }  // namespace
 
-fs::path choose_study_folder(const StudyOptions& options, const std::string& name) {
+fs::path choose_study_folder(const StudyOptions& options, const std::string& name,
+                             const std::vector<fs::path>& inputs) {
   const fs::path folder = named_or_numbered(options, name);
   if (options.force && !options.resume) {
-    io::check_replaced({folder, k_study_files, "study", "study.lock", "run", "run.log"},
-                       {options.file});
+    io::check_replaced({folder, k_study_files, "study", "study.lock", "run", "run.log"}, inputs);
   }
   return folder;
 }

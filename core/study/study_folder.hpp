@@ -5,13 +5,16 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace dust::study {
 
 /// The folder of a study: `results/NAME`, `-2`, `-3`, ... or what -o says. Throws base::UserError
 /// where it holds something and neither --resume nor --force is given, or with --force something
-/// that is no study, or the study's own file. Makes and changes nothing.
-std::filesystem::path choose_study_folder(const StudyOptions& options, const std::string& name);
+/// that is no study, or one of the files and folders that the study reads, `inputs`. Makes and
+/// changes nothing.
+std::filesystem::path choose_study_folder(const StudyOptions& options, const std::string& name,
+                                          const std::vector<std::filesystem::path>& inputs);
 
 /// After the lock: throws base::UserError where another study that began at the same time has
 /// written to a folder that was unused when it was chosen.

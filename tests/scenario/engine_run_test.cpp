@@ -20,6 +20,41 @@ const std::string k_scenario = DUST_SOURCE "/tests/scenario/small_transfer.yaml"
 // Long enough for the first grains to lie on the belt.
 const std::string k_short = "time.end=0.012 s";
 
+/// What every summary holds, whatever takes part.
+void check_contract(const fs::path& file) {
+  const auto summary = nlohmann::json::parse(read_file(file));
+  for (const char* key : {"scenario", "version", "status", "state_sha256"}) {
+    CAPTURE(key);
+    CHECK(summary[key].is_string());
+  }
+  for (const char* key :
+       {"threads", "peak_rss_bytes", "dem_steps", "fluid_steps", "particle_steps"}) {
+    CAPTURE(key);
+    CHECK(summary[key].is_number_integer());
+  }
+  for (const char* key : {"wall_s", "cpu_s", "simulated_s"}) {
+    CAPTURE(key);
+    CHECK(summary[key].is_number());
+  }
+  for (const char* of : {"particles", "real_particles", "mass_kg"}) {
+    for (const char* key : {"emitted", "in_domain", "left", "removed"}) {
+      CAPTURE(of);
+      CAPTURE(key);
+      CHECK(summary[of][key].is_number());
+    }
+  }
+  for (const char* of : {"particles", "real_particles"}) {
+    CAPTURE(of);
+    CHECK(summary[of]["max"] >= summary[of]["in_domain"]);
+    CHECK(summary[of]["max"] <= summary[of]["emitted"]);
+  }
+  for (const char* key : {"contact", "neighbour", "integration", "voidage", "fluid", "output"}) {
+    CAPTURE(key);
+    CHECK(summary["timers_s"][key].is_number());
+  }
+  CHECK(summary["sensors"].is_object());
+}
+
 }  // namespace
 
 TEST_CASE("a run shall leave every file of the contract and balance its grains") {
@@ -43,6 +78,7 @@ TEST_CASE("a run shall leave every file of the contract and balance its grains")
         std::stoll(json_text(summary, "in_domain")) + std::stoll(json_text(summary, "left")));
   CHECK(std::stod(json_text(summary, "largest_overlap_over_radius")) > 0.0);
   CHECK(std::stod(json_text(summary, "largest_momentum_imbalance")) < 1e-12);
+  check_contract(summary);
 }
 
 TEST_CASE("the written scenario shall give the same bits on one and on two threads") {
@@ -93,6 +129,8 @@ TEST_CASE("grains alone shall run from the same scenario") {
   INFO(run.err);
   REQUIRE(run.status == 0);
   CHECK(json_text(out / "summary.json", "fluid_steps") == "0");
+  check_contract(out / "summary.json");
+  CHECK(json_text(out / "summary.json", "voidage") == "0.0");
 }
 
 TEST_CASE("a fluid that diverges shall stop the run with place, time, cause and remedy") {
@@ -206,6 +244,26 @@ TEST_CASE("force shall replace a run and nothing else") {
           std::string::npos);
   }
   CHECK(read_file(out / "summary.json") == before);
+}
+
+TEST_CASE("force shall keep what the scenario includes and what is laid over it") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  REQUIRE(engine({"run", k_scenario, "-o", out, "--set", k_short, "--quiet"}).status == 0);
+  const std::string kept = read_file(out / "scenario.yaml");
+  { std::ofstream(folder / "over.yaml") << "include: out/scenario.yaml\nseed: 7\n"; }
+  { std::ofstream(folder / "above.yaml") << "include: over.yaml\n"; }
+  const std::string lost = (out / "scenario.yaml").string() + ", which this run reads";
+  for (const std::vector<std::string>& how : std::vector<std::vector<std::string>>{
+           {folder / "above.yaml"}, {k_scenario, "--set-file", folder / "over.yaml"}}) {
+    std::vector<std::string> arguments{"run", "-o", out, "--force", "--quiet"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    const auto refused = engine(arguments);
+    INFO(refused.err);
+    CHECK(refused.status == 2);
+    CHECK(refused.err.find(lost) != std::string::npos);
+    CHECK(read_file(out / "scenario.yaml") == kept);
+  }
 }
 
 TEST_CASE("a comparison shall be written over no file but a page") {

@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -184,6 +185,67 @@ TEST_CASE("resuming to an end that has passed shall be refused and change nothin
   CHECK(read_file(out / "scenario.yaml") == scenario);
   CHECK(read_file(out / "summary.json") == summary);
   CHECK(run("8 ms", "--resume").status == 0);
+}
+
+TEST_CASE("a finished run whose continuation is killed shall not count as finished") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  REQUIRE(engine({"run", k_scenario, "-o", out, "--set", "time.end=8 ms", "--quiet"}).status == 0);
+  // Nothing is left to do: it ends once more.
+  REQUIRE(engine({"run", k_scenario, "-o", out, "--set", "time.end=8 ms", "--resume", "--quiet"})
+              .status == 0);
+  CHECK(json_text(out / "summary.json", "status") == "finished");
+  CHECK(fs::exists(out / "report.html"));
+  const std::string rows = read_file(out / "series.csv");
+  const auto killed =
+      engine_interrupted_when({"run", k_scenario, "-o", out, "--resume", "--quiet"}, SIGKILL,
+                              [&] { return read_file(out / "series.csv").size() > rows.size(); });
+  CHECK(killed.status == 128 + SIGKILL);
+  for (const char* file : {"summary.json", "report.json", "report.html"}) {
+    CAPTURE(file);
+    CHECK_FALSE(fs::exists(out / file));
+  }
+}
+
+TEST_CASE("a resume that lacks a frame or a row shall be refused and change nothing") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  REQUIRE(engine({"run", k_scenario, "-o", out, "--set", "time.end=8 ms", "--quiet"}).status == 0);
+  const auto check_refused = [&](const std::string& missing) {
+    CAPTURE(missing);
+    const char* const kept[] = {"scenario.yaml", "summary.json", "report.html", "run.log"};
+    std::vector<std::string> before;
+    for (const char* file : kept) before.push_back(read_file(out / file));
+    // A later end is another scenario.yaml.
+    const auto refused =
+        engine({"run", k_scenario, "-o", out, "--set", "time.end=9 ms", "--resume", "--quiet"});
+    CHECK(refused.status == 2);
+    CHECK(refused.err.find(missing) != std::string::npos);
+    for (std::size_t n = 0; n < before.size(); ++n) CHECK(read_file(out / kept[n]) == before[n]);
+  };
+  const std::string series = read_file(out / "series.csv");
+  { std::ofstream(out / "series.csv") << series.substr(0, series.find('\n') + 1); }
+  check_refused("series.csv holds 0 rows");
+  { std::ofstream(out / "series.csv") << series; }
+  fs::remove(out / "frames/000000.h5");
+  check_refused("frame 0 of the ");
+}
+
+TEST_CASE("a report that cannot be written shall be a warning beside a run that has finished") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  // In the way of the name under which the page is written first.
+  fs::create_directories(out / "report.html.part/x");
+  const auto run =
+      engine({"run", k_scenario, "-o", out, "--set", "time.end=2 ms", "--force", "--quiet"});
+  CHECK(run.status == 0);
+  CHECK(run.err.find("the run failed") == std::string::npos);
+  CHECK(run.err.find("write it again with 'engine report " + out.string() + "'") !=
+        std::string::npos);
+  CHECK(json_text(out / "summary.json", "status") == "finished");
+  fs::remove_all(out / "report.html.part");
+  CHECK(engine({"report", out}).status == 0);
+  CHECK(fs::exists(out / "report.html"));
 }
 
 TEST_CASE("resuming without a checkpoint shall be refused with a remedy") {

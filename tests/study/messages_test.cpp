@@ -127,6 +127,13 @@ TEST_CASE("an output that is no quantity shall be told with what there is") {
       "sensors has: energy");
 }
 
+TEST_CASE("a sensor that its direction leaves without an axis shall be told with its place") {
+  check_message(
+      "base: drop.yaml\nreplicates: 2\nmeasure: {m: particles.emitted}\n"
+      "set: {sensors.heap: {model: angle_of_repose, direction: [0, 0, 1]}}\n",
+      "s.yaml:4:29: error: sensors.heap: angle_of_repose: 'direction' is not level");
+}
+
 TEST_CASE("two points with one name, or of one scenario, shall be told") {
   check_message(k_head +
                     "cases:\n  - {name: a, set: {time.end: 20 ms}}\n"

@@ -347,3 +347,30 @@ TEST_CASE("a study shall know its points by what stands in their files, wherever
     CHECK(std::find(first.begin(), first.end(), hash) == first.end());
   }
 }
+
+TEST_CASE("force shall replace a study, but nothing that it reads") {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  const auto forced = [&](const std::string& text) {
+    return engine({"study", write_study(folder, text), "-o", out, "--force", "--quiet"});
+  };
+  const std::string rest =
+      "replicates: 2\nset: {time.end: 2 ms}\nmeasure: {emitted: particles.emitted}\n";
+  REQUIRE(forced("base: drop.yaml\n" + rest).status == 0);
+  REQUIRE(forced("base: drop.yaml\n" + rest).status == 0);
+  const std::string point = "out/points/" + table_of(out).front().at("hash");
+  const std::string scenario = read_file(folder / point / "scenario.yaml");
+  { std::ofstream(folder / "over.yaml") << "include: " + point + "/scenario.yaml\n"; }
+  for (const std::string& text :
+       {"base: " + point + "/scenario.yaml\n" + rest, "base: over.yaml\n" + rest,
+        "base: drop.yaml\nreplicates: 2\nset: {start_from: " + point +
+            ", time.end: 4 ms}\nmeasure: {emitted: particles.emitted}\n"}) {
+    CAPTURE(text);
+    const auto refused = forced(text);
+    INFO(refused.err);
+    CHECK(refused.status == 2);
+    CHECK(refused.err.find(", which this study reads: copy it elsewhere, or give another -o") !=
+          std::string::npos);
+    CHECK(read_file(folder / point / "scenario.yaml") == scenario);
+  }
+}

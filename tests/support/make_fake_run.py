@@ -171,7 +171,7 @@ def write_text(folder, status, end, released, inside, with_fluid, rng):
         "peak_rss_bytes": 412345678, "simulated_s": end, "dem_steps": 351200, "fluid_steps": int(end * 1000),
         "particle_steps": 3312345678,
         "particles": {"emitted": released, "in_domain": inside, "left": left, "removed": 0, "max": inside + 310},
-        "real_particles": {"emitted": released - 361.0, "in_domain": inside - 250.0, "left": left - 111.0, "removed": 0.0},
+        "real_particles": {"emitted": released - 361.0, "in_domain": inside - 250.0, "left": left - 111.0, "removed": 0.0, "max": inside + 60.0},
         "mass_kg": {"emitted": mass, "in_domain": mass * inside / released, "left": mass - mass * inside / released, "removed": 0.0},
         "timers_s": {"contact": 1104.2, "neighbour": 311.8, "integration": 240.1, "voidage": 122.4, "fluid": 851.0,
                      "sensors": 33.1, "output": 41.9, "emit": 2.1},

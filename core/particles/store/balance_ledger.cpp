@@ -44,6 +44,7 @@ void BalanceLedger::extract(std::int32_t population, std::size_t opening) {
 
 void BalanceLedger::close() {
   const std::int64_t largest = balance_.max;
+  const double real_largest = balance_.real_max;
   balance_ = {};
   for (const Population& p : populations_) {
     const auto add = [&](std::int64_t count, std::int64_t& sum, double& real, double& mass) {
@@ -57,6 +58,7 @@ void BalanceLedger::close() {
     add(p.removed, balance_.removed, balance_.real_removed, balance_.mass_removed);
   }
   balance_.max = std::max(largest, balance_.in_domain);
+  balance_.real_max = std::max(real_largest, balance_.real_in_domain);
 }
 
 BalanceLedger::Masses BalanceLedger::masses_of(double diameter) const {
@@ -87,6 +89,7 @@ void BalanceLedger::transfer_from(const BalanceLedger& other,
     if (openings[o] >= 0) extracted_[static_cast<std::size_t>(openings[o])] = other.extracted_[o];
   }
   balance_.max = other.balance_.max;
+  balance_.real_max = other.balance_.real_max;
   close();
 }
 
@@ -103,6 +106,7 @@ void BalanceLedger::save(sdk::ArchiveWriter& archive) const {
     numbers.insert(numbers.end(), {p.diameter, p.weight, p.mass});
     integers.insert(integers.end(), {p.material, p.emitted, p.in_domain, p.left, p.removed});
   }
+  numbers.push_back(balance_.real_max);
   archive.numbers("population_numbers", numbers);
   archive.integers("population_counts", integers);
   for (std::size_t opening = 0; opening < extracted_.size(); ++opening) {
@@ -126,6 +130,8 @@ void BalanceLedger::load(sdk::ArchiveReader& archive) {
                             .removed = c[4]});
   }
   balance_.max = integers.at(0);
+  // Behind the populations; checkpoints from before it was kept have none.
+  balance_.real_max = numbers.size() % 3 == 1 ? numbers.back() : 0.0;
   for (std::size_t opening = 0; opening < extracted_.size(); ++opening) {
     extracted_[opening] = archive.integers("extracted_" + std::to_string(opening));
   }

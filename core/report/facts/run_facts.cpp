@@ -23,7 +23,9 @@ struct Cost {
 std::vector<Cost> costs_of(const json& timers, const json& groups) {
   std::vector<Cost> costs;
   for (const auto& [key, value] : timers.items()) {
-    if (value.is_number() && !groups.contains(key)) costs.push_back({key, value.get<double>()});
+    // A phase that the run has not stands at 0.
+    const double seconds = value.is_number() ? value.get<double>() : 0.0;
+    if (seconds > 0.0 && !groups.contains(key)) costs.push_back({key, seconds});
   }
   return costs;
 }

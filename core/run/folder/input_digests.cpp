@@ -7,6 +7,13 @@
 
 namespace dust::run {
 
+std::vector<std::filesystem::path> read_paths(const scenario::ReadResult& read) {
+  std::vector<std::filesystem::path> paths(read.documents.begin(), read.documents.end());
+  paths.insert(paths.end(), read.files.begin(), read.files.end());
+  if (read.start.from) paths.push_back(read.start.from->folder);
+  return paths;
+}
+
 const std::string& InputDigests::content_of(const std::filesystem::path& file) {
   const auto [at, is_new] = known_.try_emplace(file);
   if (is_new) at->second = io::content_sha256(file);

@@ -11,6 +11,10 @@
 
 namespace dust::run {
 
+/// The files and folders that a run of the scenario reads: what it is written in, files of models
+/// and the run that it starts from.
+std::vector<std::filesystem::path> read_paths(const scenario::ReadResult& read);
+
 /// What stands in the files that scenarios read; each file is looked at once.
 class InputDigests {
  public:

@@ -42,7 +42,9 @@ int first_free_number(const std::string& name) {
 
 OutputFolder::OutputFolder(const RunOptions& options, const std::string& scenario_name,
                            const std::vector<fs::path>& inputs)
-    : name_(scenario_name), is_replaced_(options.force && !options.resume) {
+    : name_(scenario_name),
+      is_replaced_(options.force && !options.resume),
+      must_be_unused_(!options.force && !options.resume) {
   if (options.output) {
     choose(options);
   } else {
@@ -88,6 +90,7 @@ void OutputFolder::choose_numbered(const RunOptions& options) {
 void OutputFolder::open() {
   make();
   lock();
+  if (must_be_unused_) check_still_unused();
   if (!is_replaced_) return;
   for (const char* file : k_run_files) {
     std::error_code problem;
@@ -120,6 +123,18 @@ void OutputFolder::lock() {
   base::log_warning(path_.string() +
                     " cannot be locked on this file system: see to it that no other run writes "
                     "to it");
+}
+
+void OutputFolder::check_still_unused() const {
+  const bool is_used =
+      std::any_of(fs::directory_iterator(path_), fs::directory_iterator(),
+                  [](const fs::directory_entry& entry) {
+                    return entry.path().filename() != "run.log" || entry.file_size() > 0;
+                  });
+  if (!is_used) return;
+  throw base::UserError("error: another run has taken the folder " + path_.string() +
+                        " meanwhile; give --resume to go on with the run in it, --force to replace "
+                        "it, or another -o");
 }
 
 }  // namespace dust::run

@@ -22,8 +22,8 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   /// Makes the folder if it is new and locks it; with --force the files of the run before go.
-  /// Throws base::UserError when another process holds it, base::WriteError when it cannot be
-  /// made.
+  /// Throws base::UserError when another process holds it or has written to it since it was chosen
+  /// as unused, base::WriteError when it cannot be made.
   void open();
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
@@ -32,11 +32,14 @@ class OutputFolder {
   void choose_numbered(const RunOptions& options);
   void make();
   void lock();
+  /// Large scenarios take minutes from the choice of the folder to here.
+  void check_still_unused() const;
 
   std::string name_;  ///< of the scenario
   std::filesystem::path path_;
   bool is_new_number_ = false;  ///< results/NAME-2 and so on: the next one where it is taken
   bool is_replaced_ = false;    ///< --force
+  bool must_be_unused_ = true;  ///< neither --force nor --resume
   int descriptor_ = -1;         ///< of the file that carries the lock
 };
 

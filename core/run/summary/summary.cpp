@@ -123,6 +123,10 @@ Json node_times(const Simulation& s, const RunFacts& facts) {
   const auto seconds = facts.node_s.empty() ? node_seconds(s, {}) : facts.node_s;
   for (std::size_t n = 0; n < nodes.size(); ++n) times[nodes[n].name] = seconds.at(n);
   times["output"] = facts.output_s;
+  // Of every run, also where no node has it: grains alone, air alone.
+  for (const char* name : {"contact", "neighbour", "integration", "voidage", "fluid"}) {
+    if (!times.contains(name)) times[name] = 0.0;
+  }
   return times;
 }
 
@@ -247,7 +251,8 @@ Json amounts_json(const Simulation& s, const RunFacts& facts) {
   j["real_particles"] = {{"emitted", b.real_emitted},
                          {"in_domain", b.real_in_domain},
                          {"left", b.real_left},
-                         {"removed", b.real_removed}};
+                         {"removed", b.real_removed},
+                         {"max", b.real_max}};
   j["mass_kg"] = {{"emitted", b.mass_emitted},
                   {"in_domain", b.mass_in_domain},
                   {"left", b.mass_left},

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <new>
 
 namespace dust::scenario {
 namespace {
@@ -235,6 +236,10 @@ ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std
   if (diagnostics_.error_count() == errors_before) {
     try {
       result.model = offer->make(choice.values);
+    } catch (const std::bad_alloc&) {
+      diagnostics_.error(name.where, reader.path() + ": " + kind + "/" + name.text +
+                                         " needs more memory with these values than there is: ask "
+                                         "for fewer cells, or for less");
     } catch (const std::exception& problem) {
       diagnostics_.error(name.where, reader.path() + ": " + std::string(problem.what()));
     } catch (...) {

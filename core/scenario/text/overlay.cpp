@@ -63,6 +63,7 @@ class IncludeReader {
       return std::nullopt;
     }
     diagnostics_.add_file(shown);
+    diagnostics_.note_document(shown);
     if (text->starts_with(k_resolved_heading)) diagnostics_.note_resolved_file(shown);
     auto root = parse_yaml(*text, shown, false, diagnostics_);
     if (!root) return std::nullopt;

@@ -54,6 +54,11 @@ class HoodScene {
   [[nodiscard]] const report::FluidGrid& grid() const { return grid_; }
   [[nodiscard]] sdk::Vec3 min() const;  ///< [m] of the domain
   [[nodiscard]] sdk::Vec3 max() const;  ///< [m]
+  /// [m] From the periodic sides of each direction that bodies which do not reach beyond both have
+  /// to keep: a diameter of the largest grain, which would miss their ends (periodic_check.hpp).
+  /// 0: not periodic, or no grains.
+  [[nodiscard]] sdk::Vec3 periodic_clearance() const { return periodic_clearance_; }
+  void set_periodic_clearance(sdk::Vec3 clearance) { periodic_clearance_ = clearance; }
   /// Whether neither a body nor the stream reaches into the box, nor a coarse grain that lies there
   /// at the end. What reaches beyond the domain does not count.
   [[nodiscard]] bool is_clear(sdk::Vec3 low, sdk::Vec3 high) const;
@@ -68,6 +73,7 @@ class HoodScene {
   std::vector<char> is_taken_;
   std::vector<DustPoint> dust_;
   std::vector<CoarseGrain> coarse_;
+  sdk::Vec3 periodic_clearance_;
 };
 
 }  // namespace dust::study

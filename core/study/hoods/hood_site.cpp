@@ -24,12 +24,14 @@ struct Duct {
 
 class DuctSites {
  public:
-  DuctSites(double opening, const HoodScene& scene) : opening_(opening), scene_(scene) {
+  /// `also_spanned`: a direction that is spanned however wide the domain is; -1: none.
+  DuctSites(double opening, const HoodScene& scene, int also_spanned = -1)
+      : opening_(opening), scene_(scene), clearance_(scene.periodic_clearance()) {
     const auto& spacing = scene.grid().spacing;
     for (int d = 0; d < 3; ++d) {
       spacing_[d] = spacing[static_cast<std::size_t>(d)];
       is_spanned_[static_cast<std::size_t>(d)] =
-          scene.max()[d] - scene.min()[d] < k_spanned * opening;
+          d == also_spanned || scene.max()[d] - scene.min()[d] < k_spanned * opening;
     }
     stream_ = scene.middle_of_taken();
   }
@@ -51,8 +53,9 @@ class DuctSites {
     // Beyond the sides, so that grains that pass through periodic ones meet it all the way.
     for (int d = 0; d < 3; ++d) {
       if (d == duct.axis || !is_spanned(d)) continue;
-      site.body_min[d] -= 0.5 * opening_;
-      site.body_max[d] += 0.5 * opening_;
+      const double beyond = std::max(0.5 * opening_, clearance_[d]);
+      site.body_min[d] -= beyond;
+      site.body_max[d] += beyond;
     }
     const double face = duct.middle[duct.axis];
     const double length = std::max(0.5 * opening_, 2.0 * spacing_[duct.axis]);
@@ -71,7 +74,8 @@ class DuctSites {
         high[d] = scene_.max()[d];
         continue;
       }
-      if (low[d] < scene_.min()[d] || high[d] > scene_.max()[d]) return false;
+      if (low[d] < scene_.min()[d] + clearance_[d]) return false;
+      if (high[d] > scene_.max()[d] - clearance_[d]) return false;
       const bool is_axis = d == duct.axis;
       low[d] -= (is_axis && duct.sign > 0.0 ? k_before : k_beside) * spacing_[d];
       high[d] += (is_axis && duct.sign < 0.0 ? k_before : k_beside) * spacing_[d];
@@ -93,6 +97,7 @@ class DuctSites {
  private:
   double opening_;
   const HoodScene& scene_;
+  sdk::Vec3 clearance_;  ///< [m] from periodic sides
   sdk::Vec3 spacing_;
   sdk::Vec3 stream_;
   std::array<bool, 3> is_spanned_{};
@@ -130,32 +135,9 @@ double shared_part(const HoodSite& site, const HoodSite& other) {
   return part;
 }
 
-}  // namespace
-
-double HoodSite::area() const {
-  double area = 1.0;
-  for (int d = 0; d < 3; ++d) {
-    if (d != axis) area *= opening_max[d] - opening_min[d];
-  }
-  return area;
-}
-
-double usual_opening(const HoodScene& scene) {
-  constexpr double k_cells = 4.0;
-  constexpr double k_part_of_domain = 1.0 / 16.0;
-  double cell = 0.0, longest = 0.0;
-  for (int d = 0; d < 3; ++d) {
-    const double extent = scene.max()[d] - scene.min()[d];
-    if (extent <= longest) continue;
-    longest = extent;
-    cell = scene.grid().spacing[static_cast<std::size_t>(d)];
-  }
-  return cell * std::max(k_cells, std::ceil(k_part_of_domain * longest / cell - 1e-6));
-}
-
-std::optional<HoodSite> site_at(const LowPressurePlace& place, double opening,
-                                const HoodScene& scene) {
-  const DuctSites sites(opening, scene);
+/// The best of the ducts nearest to the place, of those that are asked about.
+std::optional<HoodSite> nearest_site(const LowPressurePlace& place, double opening,
+                                     const DuctSites& sites, const HoodScene& scene) {
   sdk::Vec3 start = place.position;
   for (int d = 0; d < 3; ++d) {
     if (sites.is_spanned(d)) start[d] = 0.5 * (scene.min()[d] + scene.max()[d]);
@@ -184,6 +166,40 @@ std::optional<HoodSite> site_at(const LowPressurePlace& place, double opening,
   site.place = place.number;
   site.moved = distance;
   return site;
+}
+
+}  // namespace
+
+double HoodSite::area() const {
+  double area = 1.0;
+  for (int d = 0; d < 3; ++d) {
+    if (d != axis) area *= opening_max[d] - opening_min[d];
+  }
+  return area;
+}
+
+double usual_opening(const HoodScene& scene) {
+  constexpr double k_cells = 4.0;
+  constexpr double k_part_of_domain = 1.0 / 16.0;
+  double cell = 0.0, longest = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    const double extent = scene.max()[d] - scene.min()[d];
+    if (extent <= longest) continue;
+    longest = extent;
+    cell = scene.grid().spacing[static_cast<std::size_t>(d)];
+  }
+  return cell * std::max(k_cells, std::ceil(k_part_of_domain * longest / cell - 1e-6));
+}
+
+std::optional<HoodSite> site_at(const LowPressurePlace& place, double opening,
+                                const HoodScene& scene) {
+  if (const auto site = nearest_site(place, opening, DuctSites(opening, scene), scene)) return site;
+  for (int d = 0; d < 3; ++d) {
+    if (!(scene.periodic_clearance()[d] > 0.0)) continue;
+    const DuctSites spanning(opening, scene, d);
+    if (const auto site = nearest_site(place, opening, spanning, scene)) return site;
+  }
+  return std::nullopt;
 }
 
 HoodSites sites_at(std::span<const LowPressurePlace> places, std::size_t count, double opening,

@@ -31,8 +31,9 @@ struct HoodSite {
 /// The duct of `opening` [m] times `opening`, and half as long, whose open end is nearest to the
 /// place and that is clear of bodies, the stream and the walls; in front of the end two cells are
 /// clear too. Of those at the same distance the one with most dust before its opening, then the one
-/// that looks to the stream. A domain narrower than one and a half openings is spanned. Nothing
-/// where none fits within one opening of the place.
+/// that looks to the stream. A domain narrower than one and a half openings is spanned, as is one
+/// between periodic sides where no duct fits that keeps clear of them. Nothing where none fits
+/// within one opening of the place.
 [[nodiscard]] std::optional<HoodSite> site_at(const LowPressurePlace& place, double opening,
                                               const HoodScene& scene);
 

@@ -129,6 +129,20 @@ FinishedRun read_run(const fs::path& folder, const registry::Registry& registry)
   return run;
 }
 
+/// [m] What the checks of the study ask of bodies between periodic sides.
+sdk::Vec3 periodic_clearance(const FinishedRun& run) {
+  double largest = 0.0;
+  for (const nlohmann::json& entry : report::list_at(run.text.summary, "size_classes")) {
+    largest = std::max(largest, report::number_at(entry, "diameter_m").value_or(0.0));
+  }
+  sdk::Vec3 clearance;
+  for (int d = 0; d < 3; ++d) {
+    const auto& side = run.scenario.setup.domain.sides[static_cast<std::size_t>(2 * d)];
+    if (side.grains == scenario::GrainSide::periodic) clearance[d] = largest;
+  }
+  return clearance;
+}
+
 /// What the hood is made of: as the bodies are, or the walls, or else the grains.
 std::string material_of(const scenario::Setup& setup) {
   int material = setup.materials.empty() ? -1 : 0;
@@ -315,7 +329,8 @@ std::vector<HoodFlow> usual_flows(double area) {
 HoodStudy hood_study(const fs::path& folder, const HoodStudyOptions& options,
                      const registry::Registry& registry) {
   const FinishedRun run = read_run(folder, registry);
-  const HoodScene scene(folder, run.text);
+  HoodScene scene(folder, run.text);
+  scene.set_periodic_clearance(periodic_clearance(run));
   HoodStudy study;
   study.opening = options.opening > 0.0 ? options.opening : usual_opening(scene);
   HoodSites found = sites_at(run.places, options.places, study.opening, scene);

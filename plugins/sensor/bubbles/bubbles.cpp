@@ -60,9 +60,10 @@ class Bubbles final : public sdk::Sensor {
   }
 
   void observe(const sdk::WorldView& world) override {
+    // First: before a run there are no cells yet, but the axis is known.
+    find_axis(world);
     const sdk::FluidCells cells(world.fluid);
     if (cells.is_empty()) return;
-    find_axis(world);
     read(world, cells);
     const std::vector<std::int64_t> region = formula::connected_regions(box_);
     std::vector<Bubble> found = gather(world, region);

@@ -51,6 +51,11 @@ class Stress final : public sdk::Sensor {
       cells_.high[u] = p.max[d];
       cells_.count[u] = static_cast<std::size_t>(p.cells[d]);
     }
+    if (cells_.size() > k_max_cells) {
+      throw sdk::ParameterError("'cells' makes " + std::to_string(cells_.size()) +
+                                " cells of the box; at most " + std::to_string(k_max_cells) +
+                                " are kept");
+    }
     fields_.assign(cells_.size() * k_fields, 0.0);
     sums_ = fields_;
   }
@@ -141,6 +146,7 @@ class Stress final : public sdk::Sensor {
   static constexpr std::size_t k_density = 6;
   static constexpr std::size_t k_fields = 10;
   static constexpr std::size_t k_max_rows = 2000;
+  static constexpr std::size_t k_max_cells = 10'000'000;  ///< about 2 GB
   static constexpr const char* k_names[k_components] = {"xx", "yy", "zz", "xy", "xz", "yz"};
 
   static double pressure(const double* f) { return (f[0] + f[1] + f[2]) / 3.0; }

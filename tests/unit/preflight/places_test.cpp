@@ -436,3 +436,40 @@ TEST_CASE("a belt with cleats shall not be taken for a mesh from a file") {
     }
   }
 }
+
+TEST_CASE(
+    "sensors that gravity or their directions leave without an axis shall be refused at once") {
+  const std::string box = "min: [10, 10, 40 mm], max: [90, 40, 90 mm]";
+  const std::vector<scenario::Override> sensors = {
+      {"sensors.rise", "{model: bubbles, " + box + ", direction: [1, 1, 0]}"},
+      {"sensors.heap", "{model: angle_of_repose, form: planar, direction: [0, 0, 1]}"},
+      {"sensors.lost", "{model: spillage, min: [10, 10, 40 mm], max: [10, 40, 90 mm]}"}};
+  const Said all = said(sensors);
+  REQUIRE(all.errors.size() == 1);
+  const std::string& text = all.errors.front();
+  INFO(text);
+  CHECK(std::count(text.begin(), text.end(), '\n') == 2);
+  CHECK(text.find("error: sensors.rise: ") != std::string::npos);
+  CHECK(text.find("bubbles needs a direction along one of the axes") != std::string::npos);
+  CHECK(text.find("error: sensors.heap: angle_of_repose: 'direction' is not level") !=
+        std::string::npos);
+  CHECK(text.find("error: sensors.lost: gravity does not pull along x, through the level") !=
+        std::string::npos);
+  CHECK(problem({{"gravity", "[0, 0, 0]"}, {"sensors.sink", "{model: settling_velocity}"}},
+                {"error: sensors.sink: settling_velocity needs a direction"}) == "");
+  CHECK(problem({{"gravity", "[0, 0, 0]"}, {"sensors.bed", "{model: bed_height, base: [0, 0, 0]}"}},
+                {"error: sensors.bed: bed_height needs a direction"}) == "");
+  // Told once, in the words that know the remedy.
+  const Said stream = said({{"gravity", "[0, 0, 0]"},
+                            {"sensors.stream", "{model: trajectory, origin: [50, 25, 100 mm]}"}});
+  REQUIRE(stream.errors.size() == 1);
+  CHECK(stream.errors.front().find("needs gravity") ==
+        stream.errors.front().rfind("needs gravity"));
+}
+
+TEST_CASE("cells of a sensor beyond all memory shall be refused with their number") {
+  CHECK(problem({{"sensors.pressed",
+                  "{model: stress, min: [0, 0, 0], max: [100, 50, 100 mm], "
+                  "cells: [1000, 1000, 1000]}"}},
+                {"sensors.pressed: ", "'cells' makes 1000000000 cells", "at most 10000000"}) == "");
+}

@@ -143,7 +143,7 @@ json fake_summary() {
       {"particles",
        {{"emitted", 100}, {"in_domain", 45}, {"left", 50}, {"removed", 5}, {"max", 61}}},
       {"real_particles",
-       {{"emitted", 90.5}, {"in_domain", 40.0}, {"left", 45.5}, {"removed", 5.0}}},
+       {{"emitted", 90.5}, {"in_domain", 40.0}, {"left", 45.5}, {"removed", 5.0}, {"max", 54.0}}},
       {"mass_kg", {{"emitted", 0.25}, {"in_domain", 0.125}, {"left", 0.0625}, {"removed", 0.0625}}},
       {"timers_s", {{"contact", 60.0}, {"fluid", 40.0}, {"dem_cycle", 61.0}}},
       {"timer_groups", {{"dem_cycle", {"contact"}}, {"particles", {"contact"}}}},

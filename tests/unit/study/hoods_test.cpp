@@ -144,6 +144,32 @@ TEST_CASE("a hood shall be moved clear of bodies and the stream, or be left out"
   CHECK(with_dust.is_clear(site->body_min, site->body_max));
 }
 
+TEST_CASE("a hood shall keep a grain's diameter from periodic sides, or span what lies between") {
+  // 200 x 50 x 100 mm.
+  const report::FluidGrid grid{{0, 0, 0}, {k_cell, k_cell, k_cell}, {40, 10, 20}};
+  const std::vector<char> taken(40 * 10 * 20, 0);
+  study::HoodScene scene(grid, taken, {}, {});
+  const study::LowPressurePlace at_side{1, {0.1, 0.011, 0.05}, 0.4};
+  const auto beside = study::site_at(at_side, 0.02, scene);
+  REQUIRE(beside.has_value());
+  CHECK(beside->body_min.y == test::approx(0.001));
+  // Grains of 8 mm pass front and back.
+  scene.set_periodic_clearance({0.0, 0.008, 0.0});
+  const auto moved = study::site_at(at_side, 0.02, scene);
+  REQUIRE(moved.has_value());
+  CHECK(moved->body_min.y >= 0.008);
+  CHECK(moved->body_max.y <= 0.042);
+  // Of 22 mm: no duct is so far from both. It reaches as far beyond them instead.
+  scene.set_periodic_clearance({0.0, 0.022, 0.0});
+  const auto spanning = study::site_at(at_side, 0.02, scene);
+  REQUIRE(spanning.has_value());
+  CHECK(spanning->opening_min.y == 0.0);
+  CHECK(spanning->opening_max.y == test::approx(0.05));
+  CHECK(spanning->body_min.y == test::approx(-0.022));
+  CHECK(spanning->body_max.y == test::approx(0.072));
+  CHECK(spanning->axis != 1);
+}
+
 TEST_CASE("two places that are moved to one site shall have one hood, and the other be named") {
   std::vector<char> taken(40 * 2 * 20, 0);
   take(taken, {0, 0, 0}, {40, 2, 8});  // a bed up to z = 40 mm

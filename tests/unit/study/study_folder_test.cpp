@@ -17,7 +17,7 @@ TEST_CASE("a study shall leave a folder alone that another one has taken since i
   const TemporaryFolder folder;
   study::StudyOptions options;
   options.output = folder / "out";
-  const fs::path chosen = study::choose_study_folder(options, "s");
+  const fs::path chosen = study::choose_study_folder(options, "s", {});
   fs::create_directories(chosen);
   const study::FolderLock lock(chosen);
   CHECK_NOTHROW(study::check_still_unused(options, chosen));

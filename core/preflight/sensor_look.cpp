@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/sensor_look.hpp"
+
+#include <algorithm>
+#include <exception>
+
+namespace dust::preflight {
+namespace {
+
+/// One that is refused already need not be asked.
+bool is_refused(const scenario::SensorSpec& sensor, const scenario::Diagnostics& diagnostics) {
+  return std::any_of(diagnostics.errors().begin(), diagnostics.errors().end(),
+                     [&](const auto& problem) {
+                       return problem.text.starts_with(sensor.model.path + ":") ||
+                              problem.text.starts_with(sensor.model.path + ".");
+                     });
+}
+
+}  // namespace
+
+sdk::WorldView empty_world(const scenario::Setup& setup, std::span<const double> class_diameters) {
+  sdk::WorldView world;
+  world.interval = setup.time.fluid_step;
+  world.domain_min = setup.domain.min;
+  world.domain_max = setup.domain.max;
+  world.gravity = setup.gravity;
+  world.class_diameters = class_diameters;
+  return world;
+}
+
+void check_first_looks(const scenario::Setup& setup, std::span<const double> class_diameters,
+                       const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
+  const sdk::WorldView world = empty_world(setup, class_diameters);
+  for (const scenario::SensorSpec& spec : setup.sensors) {
+    if (is_refused(spec, diagnostics)) continue;
+    const auto sensor = registry.create_as<sdk::Sensor>(spec.model);
+    try {
+      sensor->observe(world);
+    } catch (const std::exception& problem) {
+      diagnostics.error(spec.model.where, spec.model.path + ": " + problem.what());
+    }
+  }
+}
+
+}  // namespace dust::preflight
