@@ -12,9 +12,9 @@
 #include "preflight/places/reach_check.hpp"
 #include "preflight/places/release_check.hpp"
 #include "preflight/places/resolved_check.hpp"
+#include "preflight/places/sensor_look.hpp"
 #include "preflight/places/sensor_places.hpp"
 #include "preflight/places/suction_cover.hpp"
-#include "preflight/sensor_look.hpp"
 #include "preflight/softness.hpp"
 #include "scenario/diagnostics.hpp"
 

@@ -45,6 +45,7 @@ void MarkerForcing::begin_step(std::vector<Sphere> spheres, std::vector<Forces> 
     m.forces = std::move(forces[s]);
     m.forces.resize(m.lattice->direction.size());
     m.change.resize(m.forces.size());
+    m.has_left.resize(m.forces.size());
     m.given = {};
     for (auto& stencils : m.stencils) stencils.resize(m.forces.size());
   }
@@ -86,7 +87,26 @@ Vec3 MarkerForcing::surface_velocity(std::size_t sphere, std::size_t marker) con
   return s.velocity + cross(s.rotation, lattice.radius * lattice.direction[marker]);
 }
 
+/// Or beyond a periodic side, which leads round.
+bool MarkerForcing::is_in_domain(Vec3 place) const {
+  for (int d = 0; d < 3; ++d) {
+    if (grid_.is_periodic[static_cast<std::size_t>(d)]) continue;
+    const double from_low = place[d] - grid_.origin[d];
+    if (from_low < 0.0 || from_low > grid_.count[d] * grid_.spacing[d]) return false;
+  }
+  return true;
+}
+
 void MarkerForcing::place_markers(double time) {
+  // Of a sphere that leaves through an open side: there is no fluid that could hold it back.
+  for (std::size_t s = 0; s < marked_.size(); ++s) {
+    Marked& m = marked_[s];
+    const Vec3 centre = spheres_[s].position_after(time);
+    for (std::size_t l = 0; l < m.forces.size(); ++l) {
+      m.has_left[l] = is_in_domain(centre + m.lattice->radius * m.lattice->direction[l]) ? 0 : 1;
+      if (m.has_left[l] != 0) m.forces[l] = {};
+    }
+  }
   each_part([&](std::size_t s, std::size_t d) {
     const MarkerLattice& lattice = *marked_[s].lattice;
     const Vec3 centre = spheres_[s].position_after(time);
@@ -106,6 +126,10 @@ void MarkerForcing::find_change(const fluid::FaceField& velocity, double step) {
     const int axis = static_cast<int>(d);
     const double mass = density_ * m.lattice->volume;
     for (std::size_t l = 0; l < m.forces.size(); ++l) {
+      if (m.has_left[l] != 0) {
+        m.change[l][axis] = 0.0;
+        continue;
+      }
       const double seen = places.mean(m.stencils[d][l], velocity.component[d].data());
       m.change[l][axis] = mass * (surface_velocity(s, l)[axis] - seen) / step;
       m.forces[l][axis] += m.change[l][axis];
@@ -184,6 +208,7 @@ double MarkerForcing::largest_slip(const fluid::FaceField& velocity) const {
   for (std::size_t s = 0; s < marked_.size(); ++s) {
     const Marked& m = marked_[s];
     for (std::size_t l = 0; l < m.forces.size(); ++l) {
+      if (m.has_left[l] != 0) continue;
       Vec3 slip = surface_velocity(s, l);
       for (int d = 0; d < 3; ++d) {
         const auto& component = velocity.component[static_cast<std::size_t>(d)];

@@ -54,6 +54,7 @@ class MarkerForcing final : public fluid::VelocityForcing {
     std::shared_ptr<const MarkerLattice> lattice;
     Forces forces;
     Forces change;                                     ///< [N] of a loop
+    std::vector<char> has_left;                        ///< markers beyond a side of the domain
     std::array<std::vector<FaceStencil>, 3> stencils;  ///< per component, where they stand
     std::array<FacePatch, 3> patches;                  ///< [N] per face
     Impulse given;
@@ -61,6 +62,7 @@ class MarkerForcing final : public fluid::VelocityForcing {
 
   [[nodiscard]] std::shared_ptr<const MarkerLattice> lattice_of(double diameter);
   void place_markers(double time);
+  [[nodiscard]] bool is_in_domain(sdk::Vec3 place) const;
   void find_change(const fluid::FaceField& velocity, double step);
   void spread(Forces Marked::*forces);
   /// Calls take(component, padded index, force [N]) for the faces that were spread to.

@@ -4,7 +4,7 @@
 #include "base/error.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "dust/sdk/sensor.hpp"
-#include "preflight/sensor_look.hpp"
+#include "preflight/places/sensor_look.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
 #include "setup/force_kinds.hpp"

@@ -53,9 +53,9 @@ class DuctSites {
     // Beyond the sides, so that grains that pass through periodic ones meet it all the way.
     for (int d = 0; d < 3; ++d) {
       if (d == duct.axis || !is_spanned(d)) continue;
-      const double beyond = std::max(0.5 * opening_, clearance_[d]);
-      site.body_min[d] -= beyond;
-      site.body_max[d] += beyond;
+      const double overhang = std::max(0.5 * opening_, clearance_[d]);
+      site.body_min[d] -= overhang;
+      site.body_max[d] += overhang;
     }
     const double face = duct.middle[duct.axis];
     const double length = std::max(0.5 * opening_, 2.0 * spacing_[duct.axis]);

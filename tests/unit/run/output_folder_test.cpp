@@ -12,25 +12,24 @@
 using dust::test::read_file;
 using dust::test::TemporaryFolder;
 namespace fs = std::filesystem;
-namespace run = dust::run;
 
 TEST_CASE("a run shall leave a folder alone that another one has taken since it was chosen") {
   const TemporaryFolder folder;
   const fs::path out = folder / "out";
-  run::RunOptions options;
+  dust::run::RunOptions options;
   options.output = out;
   // No other run, or one that has left nothing but its lock.
-  CHECK_NOTHROW(run::OutputFolder(options, "s", {}).open());
+  CHECK_NOTHROW(dust::run::OutputFolder(options, "s", {}).open());
   fs::remove(out / "run.log");
   {
-    run::OutputFolder chosen(options, "s", {});
+    dust::run::OutputFolder chosen(options, "s", {});
     std::ofstream(out / "run.log") << "";
     CHECK_NOTHROW(chosen.open());
   }
   for (const char* file : {"summary.json", "run.log"}) {
     CAPTURE(file);
     fs::remove_all(out);
-    run::OutputFolder chosen(options, "s", {});
+    dust::run::OutputFolder chosen(options, "s", {});
     fs::create_directories(out);
     std::ofstream(out / file) << "of the other run";
     CHECK_THROWS_AS(chosen.open(), dust::base::UserError);
@@ -39,9 +38,9 @@ TEST_CASE("a run shall leave a folder alone that another one has taken since it 
   // Who replaces it, or goes on in it, has said so.
   std::ofstream(out / "checkpoint.h5") << "of the other run";
   options.resume = true;
-  CHECK_NOTHROW(run::OutputFolder(options, "s", {}).open());
+  CHECK_NOTHROW(dust::run::OutputFolder(options, "s", {}).open());
   options.resume = false;
   options.force = true;
-  CHECK_NOTHROW(run::OutputFolder(options, "s", {}).open());
+  CHECK_NOTHROW(dust::run::OutputFolder(options, "s", {}).open());
   CHECK_FALSE(fs::exists(out / "checkpoint.h5"));
 }

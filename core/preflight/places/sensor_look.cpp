@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preflight/sensor_look.hpp"
+#include "preflight/places/sensor_look.hpp"
 
 #include <algorithm>
 #include <exception>
