@@ -231,13 +231,15 @@ class HertzMindlin final : public sdk::ContactLaw {
   }
 
   [[nodiscard]] double collision_time(double radius, double mass, double speed) const override {
-    return formula::collision_time(constants_.young, radius, mass, speed);
+    return damped_share() * formula::collision_time(constants_.young, radius, mass, speed);
   }
   [[nodiscard]] double half_period(double radius, double mass, double overlap) const override {
-    return formula::half_period(constants_.young, radius, mass, overlap);
+    return damped_share() * formula::half_period(constants_.young, radius, mass, overlap);
   }
 
  private:
+  [[nodiscard]] double damped_share() const { return formula::damped_share(constants_.damping); }
+
   formula::Constants constants_;
   bool is_liggghts_;
 };

@@ -224,8 +224,9 @@ std::vector<Named> cases() {
   for (const double restitution : {0.9, 0.8, 0.5, 0.3}) {
     add("hertz_mindlin, restitution " + std::to_string(restitution).substr(0, 3),
         [&](StickCase& c) { c.restitution = restitution; });
-    // The tangential damper is at its bound, 0.05 m* / dt, for most of the contact.
-    if (restitution < 0.6) all.back().patch = 0.1;
+    // The tangential damper is at its bound, 0.04 m* / dt, for most of the contact: less than that
+    // lets the densest packing spin (spinning_test.cpp).
+    if (restitution < 0.6) all.back().patch = 0.13, all.back().energy = 0.007;
   }
   // The slower the grain rolls, the later does the limit cut its couple off.
   for (const double tangential : {0.1, 0.05, 0.02}) {
