@@ -13,8 +13,9 @@
 
 namespace dust::preflight {
 
-/// Tells suction openings in whose box there is no part of the body's surface within the domain:
-/// no fluid could leave there. What only the grid shows (other bodies before it) the run tells.
+/// Tells suction openings in whose box there is no part of the body's surface within the domain, or
+/// an edge or a line of it alone: no fluid could leave there. What only the grid shows (other
+/// bodies before it) the run tells.
 void check_suctions(const scenario::Setup& setup, const ParticleModels& models,
                     scenario::Diagnostics& diagnostics);
 
