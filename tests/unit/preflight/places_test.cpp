@@ -280,6 +280,33 @@ TEST_CASE("a lone point outside the domain shall be refused") {
                                        "nothing is seen there"}) == "");
 }
 
+TEST_CASE("a stretch that ends outside the domain shall be refused with its end") {
+  const auto load = [](const std::string& direction, const std::string& length) {
+    return std::vector<scenario::Override>{
+        {"sensors.load", "{model: belt_load, point: [20, 25, 30 mm], direction: " + direction +
+                             ", length: " + length + ", width: 20 mm, height: 20 mm}"}};
+  };
+  // 80 mm are left along x, 25 mm along y; a direction's own length does not matter.
+  CHECK(said(load("[1, 0, 0]", "80 mm")).errors == std::vector<std::string>{});
+  CHECK(problem(load("[4, 0, 0]", "90 mm"),
+                {"sensors.load.length: the stretch from (0.02, 0.025, 0.03) m ends at (0.11, "
+                 "0.025, 0.03) m, outside the domain",
+                 "make it shorter"}) == "");
+  CHECK(problem(load("[0, -1, 0]", "80 mm"), {"sensors.load.length: the stretch"}) == "");
+}
+
+TEST_CASE("drops of a trajectory below the domain shall be refused with where that ends") {
+  const auto drops = [](const std::string& all) {
+    return std::vector<scenario::Override>{
+        {"sensors.stream",
+         "{model: trajectory, from: [20, 25, 150 mm], drops: " + all + ", steady_after: 90 ms}"}};
+  };
+  CHECK(said(drops("[50, 150 mm]")).errors == std::vector<std::string>{});
+  CHECK(problem(drops("[50, 160 mm]"),
+                {"sensors.stream.drops: 160 mm below (0.02, 0.025, 0.15) m lies below the domain",
+                 "which ends 150 mm below it", "leave it out"}) == "");
+}
+
 TEST_CASE("a point in a body at which the air is asked shall be warned of") {
   const auto warnings = [](const std::string& place) {
     const Said all =
