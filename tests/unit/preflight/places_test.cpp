@@ -194,6 +194,35 @@ TEST_CASE("a body that is not the same at both periodic sides shall be refused")
   CHECK(problem(beam("1 deg"), {words}) == "");
 }
 
+TEST_CASE("a body shall go on through periodic sides where there is air without grains") {
+  const auto shelf = [](const std::string& shape) {
+    return std::vector<scenario::Override>{
+        {"emitters", "{}"},
+        {"sensors", "{}"},
+        {"fluid", "{cells: [20, 10, 40], density: 1.2, viscosity: 18 uPa s}"},
+        {"domain.boundaries.front.air", "{model: no_slip}"},
+        {"domain.boundaries.back.air", "{model: total_pressure}"},
+        {"domain.boundaries.bottom.air", "{model: no_slip}"},
+        {"domain.boundaries.top.air", "{model: total_pressure}"},
+        {"bodies.shelf", "{material: sand, " + shape + "}"}};
+  };
+  const auto box = [&](const std::string& from, const std::string& to) {
+    return shelf("shape: box, min: [" + from + ", 0, 21 mm], max: [" + to + ", 50, 33 mm]");
+  };
+  const std::string ends = "bodies.shelf: ends near the periodic sides left and right";
+  CHECK(problem(box("-10", "40"), {ends, "the air would find it cut off", "from 0 m to 100 mm",
+                                   "between 0 m and 100 mm"}) == "");
+  CHECK(problem(box("60", "120"), {ends}) == "");
+  for (const auto& fine : {box("0", "100"), box("-10", "110"), box("10", "60"), box("0", "40")}) {
+    CHECK(said(fine).errors == std::vector<std::string>{});
+  }
+  CHECK(problem(shelf("shape: plane, point: [50, 0, 21 mm], normal: [-0.1, 0, 1]"),
+                {"bodies.shelf: is not the same at the periodic sides left and right",
+                 "the air would find it cut off"}) == "");
+  CHECK(said(shelf("shape: plane, point: [50, 0, 21 mm], normal: [0, -0.1, 1]")).errors ==
+        std::vector<std::string>{});
+}
+
 TEST_CASE("a body that moves to a periodic side shall be refused with when") {
   const auto shelf = [](const std::string& velocity) {
     return std::vector<scenario::Override>{
