@@ -233,7 +233,8 @@ double narrowest_turn(double diameter, double density, double viscosity, double 
 
 void check_drift(const Setup& setup, const DustSetup& dust, double air_speed,
                  const ParticleModels& models, scenario::Diagnostics& diagnostics) {
-  if (!setup.fluid || !dust.field || !(setup.fluid->viscosity > 0.0)) return;
+  if (!setup.fluid || !dust.field || !dust.field->inertia) return;
+  if (!(setup.fluid->viscosity > 0.0)) return;
   double speed = air_speed;
   for (const auto& body : models.bodies) speed = std::max(speed, body.largest_speed());
   for (const auto& emitter : models.emitters) speed = std::max(speed, emitter->largest_speed());

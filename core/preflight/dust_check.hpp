@@ -35,7 +35,7 @@ double narrowest_turn(double diameter, double density, double viscosity, double 
 
 /// Warns of classes of a dust field that do not follow the gas round turns that the grid resolves,
 /// four cells wide, at the speed of bodies, emitters and what blows through sides (`air_speed`):
-/// the drift by inertia is limited there.
+/// the drift by inertia is limited there. Nothing where the field has none.
 void check_drift(const scenario::Setup& setup, const scenario::DustSetup& dust, double air_speed,
                  const ParticleModels& models, scenario::Diagnostics& diagnostics);
 

@@ -213,6 +213,10 @@ TEST_CASE("a class of dust that does not follow the resolved fluid shall be told
   const auto coarse = warnings({{"dust", "{field: {classes: [10, 80 um], material: sand}}"}});
   CHECK(has(coarse, "dust.field.classes: at 2 m/s dust of 80 um follows the fluid round turns"));
   CHECK_FALSE(has(coarse, "dust of 10 um"));
+  // Without the drift there is none to be limited.
+  CHECK_FALSE(
+      has(warnings({{"dust", "{field: {classes: [80 um], material: sand, inertia: false}}"}}),
+          "drift by inertia"));
 }
 
 TEST_CASE("a feed that begins or ends while rates of dust are taken shall be warned of") {
