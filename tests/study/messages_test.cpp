@@ -110,6 +110,14 @@ TEST_CASE("a run to start from that is not there shall be told by a study and by
   CHECK(check.err.find("error: start_from: " + (folder / gone).string()) != std::string::npos);
 }
 
+TEST_CASE("a scenario that is given for a study shall be told to be one") {
+  const TemporaryFolder folder;
+  const auto run = engine({"study", DUST_SOURCE "/tests/study/drop.yaml", "-o", folder / "out"});
+  CHECK(run.status == 2);
+  CHECK(run.err.find("error: this is a scenario, not a study: engine run ") != std::string::npos);
+  CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+}
+
 TEST_CASE("a study with a wrong unit shall be told once, where it stands") {
   check_message(k_head + "vary: {emitters.feed.mass_flow: [1, 2, 3 mm]}\n",
                 "s.yaml:3:40: error: emitters.feed.mass_flow: 'mm' is the unit of a length: a mass "
