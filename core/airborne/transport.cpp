@@ -69,15 +69,22 @@ DUST_KERNEL void drive_row(int n, double settling, const double* throughflow, co
 DUST_KERNEL void drive_with_inertia_row(int n, double settling, float time,
                                         const double* throughflow, const double* passage,
                                         const float* acceleration, const float* speed,
-                                        double* drive, float* limited) {
+                                        double* drive, float* is_held) {
   constexpr auto k_share = static_cast<float>(k_largest_stokes_number);
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const float drift = -time * acceleration[i];
     const float largest = k_share * speed[i];
     const float held = drift > largest ? largest : drift < -largest ? -largest : drift;
-    limited[i] = held != drift ? 1.0F : limited[i];
+    is_held[i] = held != drift ? 1.0F : 0.0F;
     drive[i] = throughflow[i] + (settling + static_cast<double>(held)) * passage[i];
+  }
+}
+/// Marks cells at whose faces along one direction, `stride` apart, the drift was held.
+DUST_KERNEL void mark_row(int n, std::ptrdiff_t stride, const float* is_held, float* limited) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    limited[i] = is_held[i] + is_held[i + stride] > 0.0F ? 1.0F : limited[i];
   }
 }
 DUST_KERNEL void fluxes(const FluxRow& row, double* flux) {
@@ -173,7 +180,10 @@ double Transport::inflow_at(const Flow& flow, const WallPiece& piece) const {
 /// grains and lets gas in takes only what settles faster than that.
 void Transport::find_drive(const Flow& flow, const DustClass& dust) {
   const bool has_inertia = inertia_.gas != nullptr && dust.inertia_time != 0.0;
-  if (has_inertia) inertia_.limited.assign(grid_.size, 0.0F);
+  if (has_inertia) {
+    inertia_.limited.assign(grid_.size, 0.0F);
+    inertia_.is_held.resize(grid_.size);
+  }
   for (std::size_t d = 0; d < 3; ++d) {
     const auto n = faces(static_cast<int>(d));
     const double settling = dust.drift[static_cast<int>(d)];
@@ -185,10 +195,15 @@ void Transport::find_drive(const Flow& flow, const DustClass& dust) {
       if (has_inertia) {
         drive_with_inertia_row(n[0], settling, static_cast<float>(dust.inertia_time), throughflow,
                                passage, &inertia_.gas->field(d)[o], &inertia_.gas->speed(d)[o],
-                               drive, &inertia_.limited[o]);
+                               drive, &inertia_.is_held[o]);
       } else {
         drive_row(n[0], settling, throughflow, passage, drive);
       }
+    });
+    if (!has_inertia) continue;
+    for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+      const std::size_t o = at(grid_.index(0, j, k));
+      mark_row(grid_.count[0], grid_.stride[d], &inertia_.is_held[o], &inertia_.limited[o]);
     });
   }
   std::fill(deposition_.begin(), deposition_.end(), 0.0);

@@ -39,7 +39,7 @@ class Transport {
   int advance(const Flow& flow, const DustClass& dust, double turbulent_share,
               const std::vector<double>& source, double step, fluid::CellField& mass,
               Losses& losses);
-  /// 1 in cells at whose lower faces the drift by inertia of the last class was limited, 0 in
+  /// 1 in cells at any of whose faces the drift by inertia of the last class was limited, 0 in
   /// others.
   [[nodiscard]] const std::vector<float>& limited() const { return inertia_.limited; }
   /// [kg/m3 of gas] where there is gas.
@@ -50,6 +50,7 @@ class Transport {
   struct Inertia {
     const GasAcceleration* gas = nullptr;  ///< null: dust turns with the gas
     std::vector<float> limited;            ///< see limited()
+    std::vector<float> is_held;  ///< 1 in faces, along one direction, that it was limited in
   };
   void set_volume(const Flow& flow, double share);
   void find_drive(const Flow& flow, const DustClass& dust);

@@ -8,8 +8,11 @@
 #include "scenario/text/units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
 #include <string>
+#include <utility>
 
 namespace dust::preflight {
 namespace {
@@ -111,6 +114,33 @@ class SurfaceSearch {
     low_max[d] = high_min[d] = min[d] + half[d];
     return may_be_in(min, low_max) || may_be_in(high_min, max);
   }
+  /// Whether the part of the surface in the box has an area: an edge or a line of it has none.
+  /// `rounding`: how far beyond the box the run still counts a place to it.
+  bool has_area_in(Vec3 min, Vec3 max, double rounding) const {
+    constexpr int k_max_boxes = 20000;
+    std::deque<std::pair<Vec3, Vec3>> boxes{{min, max}};
+    // The larger ones first: what is looked at lies evenly along the surface.
+    for (int n = 0; n < k_max_boxes && !boxes.empty(); ++n, boxes.pop_front()) {
+      const auto [low, high] = boxes.front();
+      const Vec3 half = 0.5 * (high - low);
+      const double reach = norm(half) + finest_;
+      const Vec3 middle = at_.to_domain(low + half);
+      if (std::abs(body_.nearest(middle, at_).distance) > reach) continue;
+      const auto is_open = [&](Vec3 place) {
+        return is_in_box(at_.to_body(place), min, max, rounding) &&
+               (body_.is_carried() || is_in_box(place, domain_.min, domain_.max, finest_));
+      };
+      if (is_patch(middle, is_open)) return true;
+      if (reach < 2.0 * finest_) continue;
+      int d = half.y > half.x ? 1 : 0;
+      if (half.z > half[d]) d = 2;
+      Vec3 low_max = high, high_min = low;
+      low_max[d] = high_min[d] = low[d] + half[d];
+      boxes.emplace_back(low, low_max);
+      boxes.emplace_back(high_min, high);
+    }
+    return false;
+  }
   /// The place of the surface nearest to a place in the body's frame, in that frame.
   [[nodiscard]] Vec3 nearest(Vec3 place) const {
     const Vec3 there = at_.to_domain(place);
@@ -119,6 +149,26 @@ class SurfaceSearch {
   }
 
  private:
+  /// Whether the surface is open where it is nearest to a place, and all round it.
+  template <class IsOpen>
+  bool is_patch(Vec3 place, const IsOpen& is_open) const {
+    const bodies::SurfacePoint s = body_.nearest(place, at_);
+    const Vec3 foot = place - s.distance * s.normal;
+    if (!is_open(foot)) return false;
+    int d = std::abs(s.normal.y) < std::abs(s.normal.x) ? 1 : 0;
+    if (std::abs(s.normal.z) < std::abs(s.normal[d])) d = 2;
+    Vec3 axis;
+    axis[d] = 1.0;
+    Vec3 along = cross(s.normal, axis);
+    along = along / norm(along);
+    const Vec3 across = cross(s.normal, along);
+    return std::ranges::all_of(std::array{along, -along, across, -across}, [&](Vec3 way) {
+      const Vec3 beside = foot + finest_ * way;
+      const bodies::SurfacePoint there = body_.nearest(beside, at_);
+      return is_open(beside - there.distance * there.normal);
+    });
+  }
+
   const scenario::DomainSpec& domain_;
   const bodies::Body& body_;
   bodies::Placement at_;
@@ -136,7 +186,8 @@ bool has_openings(const Setup& setup, const DustSetup& dust) {
 
 void check_suctions(const Setup& setup, const ParticleModels& models,
                     scenario::Diagnostics& diagnostics) {
-  constexpr double k_finest = 1e-3;  // of a cell: the run finds surfaces that are nearer
+  constexpr double k_finest = 1e-3;    // of a cell: narrower openings count as none
+  constexpr double k_rounding = 1e-6;  // of a cell: as in the run
   const bool has_suction = std::any_of(setup.bodies.begin(), setup.bodies.end(),
                                        [](const BodySpec& b) { return b.suction.has_value(); });
   if (!setup.fluid || !has_suction) return;
@@ -146,7 +197,15 @@ void check_suctions(const Setup& setup, const ParticleModels& models,
     const auto& suction = setup.bodies[n].suction;
     if (!suction) continue;
     SurfaceSearch search(setup, models.bodies[n], k_finest * norm(h));
-    if (search.may_be_in(suction->min, suction->max)) continue;
+    if (search.may_be_in(suction->min, suction->max)) {
+      if (search.has_area_in(suction->min, suction->max, k_rounding * norm(h))) continue;
+      diagnostics.error(
+          suction->where,
+          "bodies." + setup.bodies[n].name +
+              ".suction: the box from min to max only touches the body's surface, so that the "
+              "opening has no area: move min or max so that a part of the surface lies in it");
+      continue;
+    }
     diagnostics.error(
         suction->where,
         "bodies." + setup.bodies[n].name +
@@ -174,7 +233,8 @@ double narrowest_turn(double diameter, double density, double viscosity, double 
 
 void check_drift(const Setup& setup, const DustSetup& dust, double air_speed,
                  const ParticleModels& models, scenario::Diagnostics& diagnostics) {
-  if (!setup.fluid || !dust.field || !(setup.fluid->viscosity > 0.0)) return;
+  if (!setup.fluid || !dust.field || !dust.field->inertia) return;
+  if (!(setup.fluid->viscosity > 0.0)) return;
   double speed = air_speed;
   for (const auto& body : models.bodies) speed = std::max(speed, body.largest_speed());
   for (const auto& emitter : models.emitters) speed = std::max(speed, emitter->largest_speed());

@@ -13,8 +13,9 @@
 
 namespace dust::preflight {
 
-/// Tells suction openings in whose box there is no part of the body's surface within the domain:
-/// no fluid could leave there. What only the grid shows (other bodies before it) the run tells.
+/// Tells suction openings in whose box there is no part of the body's surface within the domain, or
+/// an edge or a line of it alone: no fluid could leave there. What only the grid shows (other
+/// bodies before it) the run tells.
 void check_suctions(const scenario::Setup& setup, const ParticleModels& models,
                     scenario::Diagnostics& diagnostics);
 
@@ -34,7 +35,7 @@ double narrowest_turn(double diameter, double density, double viscosity, double 
 
 /// Warns of classes of a dust field that do not follow the gas round turns that the grid resolves,
 /// four cells wide, at the speed of bodies, emitters and what blows through sides (`air_speed`):
-/// the drift by inertia is limited there.
+/// the drift by inertia is limited there. Nothing where the field has none.
 void check_drift(const scenario::Setup& setup, const scenario::DustSetup& dust, double air_speed,
                  const ParticleModels& models, scenario::Diagnostics& diagnostics);
 

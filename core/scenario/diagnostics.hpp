@@ -35,6 +35,7 @@ class Diagnostics {
   [[nodiscard]] std::size_t error_count() const { return errors_.size(); }
   /// In the order in which they were found.
   [[nodiscard]] const std::vector<Problem>& errors() const { return errors_; }
+  [[nodiscard]] const std::vector<Problem>& warnings() const { return warnings_; }
   [[nodiscard]] std::vector<std::string> error_lines() const { return lines(errors_, "error"); }
   [[nodiscard]] std::vector<std::string> warning_lines() const {
     return lines(warnings_, "warning");

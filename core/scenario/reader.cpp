@@ -146,7 +146,8 @@ void read_setup(Reading& reading) {
 /// Rather than one error for each key of a study.
 bool is_study(const Node& root, const fs::path& file, Diagnostics& diagnostics) {
   const Entry* const base = root.find("base");
-  if (base == nullptr || root.find("measure") == nullptr) return false;
+  if (base == nullptr) return false;
+  if (root.find("measure") == nullptr && root.find("calibrate") == nullptr) return false;
   diagnostics.error(base->where,
                     "this is a study, which varies the scenario of its 'base': engine study " +
                         file.generic_string() + " runs it, with --dry-run it is only checked");
@@ -162,7 +163,9 @@ std::optional<ReadResult> read_file(const fs::path& file, const std::vector<Over
   auto root = read_with_includes(file, diagnostics);
   for (const fs::path& set_file : set_files) {
     auto over = read_with_includes(set_file, diagnostics);
-    if (root && over) merge_scenario(*root, std::move(*over));
+    // Without it keys would be missed that it gives.
+    if (!over) return std::nullopt;
+    if (root) merge_scenario(*root, std::move(*over));
   }
   if (!root || is_study(*root, file, diagnostics)) return std::nullopt;
   if (root->where.line == 0) root->where = {file.generic_string(), 1, 1};

@@ -15,6 +15,7 @@
 #include "study/measures.hpp"
 #include "study/quantities.hpp"
 #include "study/spec/axes.hpp"
+#include "study/spec/point_problems.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -29,14 +30,6 @@ using scenario::Node;
 
 constexpr std::size_t k_max_points = 10000;
 constexpr std::size_t k_hash_digits = 16;
-
-/// [s] Time of the state that a run starts from. Of a run that is still to come, as it is asked
-/// for.
-double begin_of(const scenario::StartSetup& start, const registry::Registry& registry) {
-  if (!start.from) return 0.0;
-  if (start.from->time || !run::has_origin(*start.from)) return start.from->time.value_or(0.0);
-  return run::Origin(*start.from, registry).time();
-}
 
 /// What tells one run from another: its scenario, with what stands in the files that it reads.
 /// Where they lie does not count.
@@ -109,6 +102,40 @@ Column column_of(const Axis& axis, std::size_t axis_number, std::size_t setting,
   return column;
 }
 
+/// When the runs of points begin.
+class Begins {
+ public:
+  explicit Begins(Origins origins) : origins_(origins) {}
+
+  /// [s] Time of the state that a run starts from. Of a run that is still to come, as it is asked
+  /// for, with a warning; where it has to be there, an error.
+  double of(const scenario::StartSetup& start, const registry::Registry& registry,
+            Diagnostics& own) {
+    if (!start.from) return 0.0;
+    if (!run::has_origin(*start.from)) {
+      const std::string text = "start_from: " + run::no_origin_text(*start.from);
+      if (origins_ == Origins::there) {
+        own.error(start.from->where, text);
+      } else {
+        own.warning(start.from->where, text);
+      }
+      return start.from->time.value_or(0.0);
+    }
+    const auto [at, is_new] = times_.try_emplace(start.from->written, 0.0);
+    if (is_new) at->second = run::Origin(*start.from, registry).time();
+    return at->second;
+  }
+
+ private:
+  Origins origins_;
+  std::map<std::string, double> times_;  ///< [s] by what start_from says
+};
+
+/// Problems whose place does not tell which points they are of.
+struct Kept {
+  PointProblems errors, warnings;
+};
+
 }  // namespace
 
 struct Planner::Impl {
@@ -125,6 +152,8 @@ struct Planner::Impl {
   std::set<std::size_t> reported_axes;
   std::map<std::string, sdk::Dimension> dimensions;
   std::set<std::filesystem::path> read_paths = {};  ///< by the points
+  Begins begins;
+  Kept kept = {};
 
   void read_base() {
     base = scenario::read_with_includes(spec.base, diagnostics);
@@ -147,6 +176,10 @@ struct Planner::Impl {
         }
       }
     }
+    if (!spec.calibration) return;
+    for (const FreeParameter& p : spec.calibration->parameters) {
+      axis_marks.push_back({{p.where.line, p.where.column}});
+    }
   }
 
   static void set_all(Node& root, const std::vector<Setting>& settings, Diagnostics& to) {
@@ -160,13 +193,32 @@ struct Planner::Impl {
   }
 
   /// Problems of one point, without those that are only the same thing said for another level.
-  void print(const Diagnostics& own) {
+  /// Those of combination `n` whose place does not tell which point it is are kept till all are
+  /// known; of none: `with` says what was set.
+  void print(const Diagnostics& own, std::optional<std::size_t> n = {},
+             const std::string& with = {}) {
+    std::vector<Diagnostics::Problem> elsewhere;
     for (const Diagnostics::Problem& problem : own.errors()) {
       const std::size_t axis = axis_of(problem.where);
+      if (n && axis == axis_marks.size()) {
+        elsewhere.push_back(problem);
+        continue;
+      }
       if (axis < axis_marks.size() && !reported_axes.insert(axis).second) continue;
       if (!reported.insert(scenario::place(problem.where) + problem.text).second) continue;
-      diagnostics.error(problem.where, problem.text);
+      diagnostics.error(problem.where, problem.text + with);
     }
+    if (n) kept.errors.add(elsewhere, *n);
+  }
+  void print_kept_errors(const PointProblems::Points& points) {
+    kept.errors.report(points, [this](const Diagnostics::Problem& problem) {
+      diagnostics.error(problem.where, problem.text);
+    });
+  }
+  void print_kept_warnings(const PointProblems::Points& points) {
+    kept.warnings.report(points, [this](const Diagnostics::Problem& problem) {
+      diagnostics.warning(problem.where, problem.text);
+    });
   }
   [[nodiscard]] std::size_t axis_of(const Mark& mark) const {
     if (mark.file != spec.file.generic_string()) return axis_marks.size();
@@ -176,7 +228,10 @@ struct Planner::Impl {
     return axis_marks.size();
   }
 
-  std::optional<Point> resolve(Node root, std::uint64_t seed) {
+  /// The point of combination `n`, if it is one, and of `seed`; nothing where it has problems,
+  /// which are told, then `with` what was set.
+  std::optional<Point> resolve(Node root, std::uint64_t seed, std::optional<std::size_t> n = {},
+                               const std::string& with = {}) {
     Diagnostics own;
     own.add_file(spec.file.generic_string());
     Node number = Node::make_text(std::to_string(seed));
@@ -184,21 +239,44 @@ struct Planner::Impl {
     scenario::set_path(root, "seed", number, spec.where, own);
     const auto read = preflight::read_tree(root, spec.base, registry, own);
     for (const auto& [path, dimension] : own.dimensions()) dimensions[path] = dimension;
-    if (!read) {
-      print(own);
+    const double begin = read ? begins.of(read->start, registry, own) : 0.0;
+    if (own.has_errors()) {
+      print(own, n, with);
       return std::nullopt;
     }
+    if (n) kept.warnings.add(own.warnings(), *n);
     Point point;
     point.seed = seed;
     point.resolved_yaml = read->resolved_yaml;
     point.hash = hash_of(*read, digests.of(*read));
     for (std::filesystem::path& path : run::read_paths(*read)) read_paths.insert(std::move(path));
-    const auto derived =
-        preflight::derive(read->setup, registry, read->dust, begin_of(read->start, registry));
+    const auto derived = preflight::derive(read->setup, registry, read->dust, begin);
     point.core_seconds = derived.cost.terms.seconds();
     point.memory_bytes = derived.cost.memory_bytes;
     measures.see(quantities_of(read->setup, read->dust, registry));
     return point;
+  }
+
+  /// Sets the parameters of a calibration.
+  void set_parameters(Node& root, const std::vector<double>& values, Diagnostics& to) const {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const FreeParameter& p = spec.calibration->parameters[k];
+      Node value = Node::make_text(parameter_text(k, values[k]));
+      value.where = p.where;
+      for (const std::string& path : p.paths) scenario::set_path(root, path, value, p.where, to);
+    }
+  }
+  [[nodiscard]] std::string parameter_text(std::size_t k, double value) const {
+    const std::string& unit = spec.calibration->parameters[k].unit;
+    return scenario::number_text(value) + (unit.empty() ? "" : " " + unit);
+  }
+  [[nodiscard]] std::string parameters_text(const std::vector<double>& values) const {
+    std::string text;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      text += (k == 0 ? "" : ", ") + spec.calibration->parameters[k].name + ": " +
+              parameter_text(k, values[k]);
+    }
+    return text;
   }
 
   [[nodiscard]] std::uint64_t seed_of(std::int64_t replicate) const {
@@ -213,7 +291,7 @@ struct Planner::Impl {
 
   [[nodiscard]] std::optional<std::size_t> count_combinations() const;
   [[nodiscard]] std::vector<std::size_t> levels_of(std::size_t n) const;
-  [[nodiscard]] std::optional<Node> combined(const std::vector<std::size_t>& levels);
+  [[nodiscard]] std::optional<Node> combined(std::size_t n);
   void add_inputs(std::size_t a, Plan& plan) const;
 
   /// Whether it is seeds that an axis names, which the study gives to its points by itself.
@@ -253,7 +331,8 @@ struct Planner::Impl {
   }
 };
 
-Planner::Planner(const Spec& spec, const registry::Registry& registry, Diagnostics& diagnostics)
+Planner::Planner(const Spec& spec, const registry::Registry& registry, Diagnostics& diagnostics,
+                 Origins origins)
     : impl_(new Impl{.spec = spec,
                      .registry = registry,
                      .diagnostics = diagnostics,
@@ -262,7 +341,8 @@ Planner::Planner(const Spec& spec, const registry::Registry& registry, Diagnosti
                      .reported = {},
                      .axis_marks = {},
                      .reported_axes = {},
-                     .dimensions = {}}) {
+                     .dimensions = {},
+                     .begins = Begins(origins)}) {
   impl_->read_base();
 }
 Planner::~Planner() = default;
@@ -323,7 +403,8 @@ std::vector<std::size_t> Planner::Impl::levels_of(std::size_t n) const {
 }
 
 /// The scenario of a combination; nothing where it has problems, which are told.
-std::optional<Node> Planner::Impl::combined(const std::vector<std::size_t>& levels) {
+std::optional<Node> Planner::Impl::combined(std::size_t n) {
+  const std::vector<std::size_t> levels = levels_of(n);
   Node root = *base;
   Diagnostics own;
   own.add_file(spec.file.generic_string());
@@ -331,7 +412,7 @@ std::optional<Node> Planner::Impl::combined(const std::vector<std::size_t>& leve
     set_all(root, spec.axes[a].levels[levels[a]].settings, own);
   }
   if (!own.has_errors()) return root;
-  print(own);
+  print(own, n);
   return std::nullopt;
 }
 
@@ -361,10 +442,10 @@ Plan Planner::plan() {
   std::map<std::string, std::size_t> by_hash;
   for (std::size_t n = 0; n < *combinations; ++n) {
     const std::vector<std::size_t> levels = impl_->levels_of(n);
-    const std::optional<Node> root = impl_->combined(levels);
+    const std::optional<Node> root = impl_->combined(n);
     if (!root) continue;
     for (std::int64_t r = 1; r <= impl_->spec.replicates; ++r) {
-      auto point = impl_->resolve(*root, impl_->seed_of(r));
+      auto point = impl_->resolve(*root, impl_->seed_of(r), n);
       if (!point) break;
       point->levels = levels;
       point->replicate = r;
@@ -373,10 +454,15 @@ Plan Planner::plan() {
       plan.points.push_back(std::move(*point));
     }
   }
+  const PointProblems::Points points{
+      *combinations, static_cast<std::size_t>(impl_->spec.replicates),
+      [this](std::size_t n) { return values_text(impl_->spec, impl_->levels_of(n)); }};
+  impl_->print_kept_errors(points);
   if (plan.points.empty()) impl_->look_without_faulty();
   plan.outputs = impl_->measures.columns();
   plan.read_paths = impl_->read_paths;
   if (impl_->diagnostics.has_errors()) return plan;
+  impl_->print_kept_warnings(points);
   for (std::size_t a = 0; a < impl_->spec.axes.size(); ++a) impl_->add_inputs(a, plan);
   return plan;
 }
@@ -386,22 +472,29 @@ Plan Planner::calibration_columns() {
   if (impl_->diagnostics.has_errors()) return plan;
   // Both ends are tried, so that a wrong path, unit or range is told before anything is run.
   const auto& calibration = *impl_->spec.calibration;
-  for (const bool is_high : {false, true}) {
+  const auto values_of = [&](std::size_t end) {
+    std::vector<double> values;
+    for (const FreeParameter& p : calibration.parameters) {
+      values.push_back(end == 0 ? p.low : p.high);
+    }
+    return values;
+  };
+  for (const std::size_t end : {0, 1}) {
     Node root = *impl_->base;
     Diagnostics own;
     own.add_file(impl_->spec.file.generic_string());
-    for (const FreeParameter& p : calibration.parameters) {
-      Node value = Node::make_text(scenario::number_text(is_high ? p.high : p.low) +
-                                   (p.unit.empty() ? "" : " " + p.unit));
-      value.where = p.where;
-      for (const std::string& path : p.paths) scenario::set_path(root, path, value, p.where, own);
-    }
+    impl_->set_parameters(root, values_of(end), own);
     if (own.has_errors()) {
-      impl_->print(own);
-      return plan;
+      impl_->print(own, end);
+    } else {
+      static_cast<void>(impl_->resolve(root, impl_->seed_of(1), end));
     }
-    if (!impl_->resolve(root, impl_->seed_of(1))) return plan;
   }
+  const PointProblems::Points ends{
+      2, 0, [&](std::size_t end) { return impl_->parameters_text(values_of(end)); }};
+  impl_->print_kept_errors(ends);
+  if (impl_->diagnostics.has_errors()) return plan;
+  impl_->print_kept_warnings(ends);
   plan.outputs = impl_->measures.columns();
   plan.read_paths = impl_->read_paths;
   if (impl_->diagnostics.has_errors()) return plan;
@@ -417,20 +510,15 @@ Plan Planner::calibration_columns() {
 std::vector<Point> Planner::calibration_points(const std::vector<double>& values) {
   const auto& calibration = *impl_->spec.calibration;
   Node root = *impl_->base;
+  impl_->set_parameters(root, values, impl_->diagnostics);
   std::vector<InputValue> inputs;
   for (std::size_t k = 0; k < calibration.parameters.size(); ++k) {
-    const FreeParameter& p = calibration.parameters[k];
-    const std::string number = scenario::number_text(values[k]);
-    Node value = Node::make_text(number + (p.unit.empty() ? "" : " " + p.unit));
-    value.where = p.where;
-    for (const std::string& path : p.paths) {
-      scenario::set_path(root, path, value, p.where, impl_->diagnostics);
-    }
-    inputs.push_back({values[k], number});
+    inputs.push_back({values[k], scenario::number_text(values[k])});
   }
+  const std::string with = " (with " + impl_->parameters_text(values) + ")";
   std::vector<Point> points;
   for (std::int64_t r = 1; r <= impl_->spec.replicates; ++r) {
-    auto point = impl_->resolve(root, impl_->seed_of(r));
+    auto point = impl_->resolve(root, impl_->seed_of(r), std::nullopt, with);
     impl_->diagnostics.throw_errors();
     point->inputs = inputs;
     point->replicate = r;

@@ -60,11 +60,15 @@ struct Plan {
   std::set<std::filesystem::path> read_paths;  ///< files and folders that the points read
 };
 
+/// Whether the runs that points start from have to be there by now: not for a plan alone.
+enum class Origins { there, to_come };
+
 /// Resolves a study against its base scenario.
 class Planner {
  public:
   /// Reads the base scenario with what the study sets. Problems go to `diagnostics`.
-  Planner(const Spec& spec, const registry::Registry& registry, scenario::Diagnostics& diagnostics);
+  Planner(const Spec& spec, const registry::Registry& registry, scenario::Diagnostics& diagnostics,
+          Origins origins);
   ~Planner();
 
   /// All points with all checks; the plan is of use only where no errors were told.

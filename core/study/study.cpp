@@ -276,7 +276,8 @@ int run_study(const StudyOptions& options) {
   const auto spec = read_spec(options.file, diagnostics);
   // The rest is told with what is wrong here.
   if (!spec || !can_be_planned(*spec, diagnostics)) diagnostics.throw_errors();
-  Planner planner(*spec, registry, diagnostics);
+  Planner planner(*spec, registry, diagnostics,
+                  options.dry_run ? Origins::to_come : Origins::there);
   Plan plan = spec->calibration ? planner.calibration_columns() : planner.plan();
   diagnostics.throw_errors();
   for (const std::string& warning : diagnostics.warning_lines()) {

@@ -419,4 +419,13 @@ TEST_CASE("a scenario written by engine new shall be valid in any sizes, without
   CHECK(wrong.status == 2);
   CHECK(wrong.err.find("--mass: 'mm' is the unit of a length: a mass is expected") !=
         std::string::npos);
+  CHECK(engine({"new", "belt"}).err ==
+        "engine new: error: there is no scenario 'belt' to start from; there are: transfer, "
+        "hopper\n");
+  CHECK(engine({"new", "hoper"}).err.find("did you mean 'hopper'?") != std::string::npos);
+  CHECK(engine({"new"}).err == "engine new: error: which scenario? There are: transfer, hopper\n");
+  const auto more = engine({"new", "hopper", "belt", "-o", folder / "y.yaml"});
+  CHECK(more.status == 2);
+  CHECK(more.err.find("not expected: belt") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder / "y.yaml"));
 }

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -76,6 +77,45 @@ TEST_CASE("all that is wrong in a study shall be told at once, also beside an un
   // What cannot be read makes no point that could be looked at.
   check_message("base: drop.yaml\nvari: {time.end: [20, 40 ms]}\n" + measure,
                 "s.yaml:2:1: error: unknown key 'vari' in the study; did you mean 'vary'?");
+}
+
+TEST_CASE("what is wrong with some points shall be told once, with what makes the first of them") {
+  const auto holds = [](const std::string& text, const std::string& part) {
+    CAPTURE(text);
+    CHECK(text.find(part) != std::string::npos);
+    CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+  };
+  holds(message_of(k_head + "vary: {domain.max: [[10, 10, 20 mm], [10, 10, 12 mm]], "
+                            "emitters.feed.mass_flow: [1, 2 g/s]}\n"),
+        "(points 3, 4; numbers of the first, with domain.max: [10, 10, 12 mm], "
+        "emitters.feed.mass_flow: 1 g/s)");
+  holds(message_of(k_head +
+                   "replicates: 2\ncases:\n  fine: {}\n  light: {materials.sand.density: 2.6}\n"),
+        "(points 3, 4; with case: light)");
+  // Where all of them have it, the place is enough.
+  holds(message_of(
+            k_head +
+            "set: {materials.sand.density: 2.6}\nvary: {gravity: [[0, 0, -9.8], [0, 0, 0]]}\n"),
+        "raise the speed to 17.1703 m/s\n");
+}
+
+TEST_CASE("a run to start from that is not there shall be told by a study and by a check") {
+  const std::string gone = "gone holds no checkpoint.h5: run that scenario first, with -o ";
+  check_message(k_head + "set: {start_from: gone, time.end: 1 s}\nreplicates: 2\n",
+                "s.yaml:3:19: error: start_from: " + gone + "gone");
+  const TemporaryFolder folder;
+  const auto check = engine({"check", DUST_SOURCE "/tests/study/drop.yaml", "--set",
+                             "start_from=" + (folder / "gone").string()});
+  CHECK(check.status == 2);
+  CHECK(check.err.find("error: start_from: " + (folder / gone).string()) != std::string::npos);
+}
+
+TEST_CASE("a scenario that is given for a study shall be told to be one") {
+  const TemporaryFolder folder;
+  const auto run = engine({"study", DUST_SOURCE "/tests/study/drop.yaml", "-o", folder / "out"});
+  CHECK(run.status == 2);
+  CHECK(run.err.find("error: this is a scenario, not a study: engine run ") != std::string::npos);
+  CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
 }
 
 TEST_CASE("a study with a wrong unit shall be told once, where it stands") {

@@ -252,6 +252,32 @@ TEST_CASE("a dry run shall list the points and write nothing") {
   CHECK_FALSE(fs::exists(folder / "out"));
 }
 
+TEST_CASE("what a check warns of shall be told by a study, once, with the points that it is of") {
+  const TemporaryFolder folder;
+  const std::string head = "base: drop.yaml\nmeasure: {emitted: particles.emitted}\n";
+  const auto warnings = [&](const std::string& text) {
+    const auto run = engine({"study", write_study(folder, head + text), "--dry-run"});
+    CHECK(run.status == 0);
+    CAPTURE(run.err);
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    return run.err;
+  };
+  const std::string soft = "warning: interactions[0].contact: grains of 600 um overlap by ";
+  const std::string some =
+      warnings("vary: {materials.sand.young_modulus: [5 MPa, 5 kPa, 6 kPa]}\nreplicates: 2\n");
+  CHECK(some.find(soft) != std::string::npos);
+  CHECK(some.find(
+            "(points 3 to 6; numbers of the first, with materials.sand.young_modulus: 5 kPa)") !=
+        std::string::npos);
+  const std::string all = warnings(
+      "set: {materials.sand.young_modulus: 5 kPa}\nvary: {emitters.feed.mass_flow: [1, 2 g/s]}\n");
+  CHECK(all.find(soft) != std::string::npos);
+  CHECK(all.find("points") == std::string::npos);
+  // A plan may come before the run that it starts from.
+  CHECK(warnings("set: {start_from: yonder, time.end: 1 s}\nreplicates: 2\n")
+            .find("warning: start_from: ") != std::string::npos);
+}
+
 /// [s] of all points by a dry run of the study.
 double planned_seconds(const fs::path& study, const std::string& text) {
   std::ofstream(study) << text;

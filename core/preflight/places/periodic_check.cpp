@@ -3,6 +3,7 @@
 
 #include "base/text.hpp"
 #include "bodies/survey/bounds.hpp"
+#include "fluid/grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,18 +27,40 @@ struct Extent {
   double low = 0.0, high = 0.0;
 };
 
-/// A body at an instant of the run, and the grains that meet it.
+/// What meets bodies: grains, or the air alone, as grains without a size would.
+struct Scale {
+  double largest = 0.0;    ///< [m] diameter of grains
+  double near = 0.0;       ///< [m] how far off its surface a body is looked at
+  double tolerance = 0.0;  ///< [m] by which its surface may lie elsewhere at the other side
+};
+
+/// A body at an instant of the run, and what meets it.
 struct Scene {
   const scenario::DomainSpec& domain;
   const bodies::Body& body;
   bodies::Placement place;
-  double smallest = 0.0, largest = 0.0;  ///< [m] diameters of grains
+  Scale scale;
 };
+
+/// Grains lose or gain m g times the tolerance as they pass: less than contacts give way by
+/// themselves. Cells are cut a thousandth of their size otherwise.
+std::optional<Scale> scale_of(const scenario::Setup& setup, const ParticleModels& models) {
+  constexpr double k_tolerance = 1e-3;
+  if (!models.class_diameters.empty()) {
+    const double largest = models.class_diameters.back();
+    return Scale{largest, 0.5 * largest, k_tolerance * models.class_diameters.front()};
+  }
+  if (!setup.fluid) return std::nullopt;
+  const Vec3 h =
+      fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, {}).spacing;
+  const double cell = std::min({h.x, h.y, h.z});
+  return Scale{0.0, 0.5 * cell, k_tolerance * cell};
+}
 
 /// Of a body along d, as far as a box far beyond the domain.
 Extent extent_of(const Scene& scene, int d) {
-  const auto& [domain, body, place, smallest, largest] = scene;
-  const double far = 2.0 * (norm(domain.max - domain.min) + largest);
+  const auto& [domain, body, place, scale] = scene;
+  const double far = 2.0 * (norm(domain.max - domain.min) + scale.largest);
   const bodies::Bounds box = bodies::bounds_of(body, place, domain.min, domain.max, far, far);
   return {box.low[d], box.high[d]};
 }
@@ -70,7 +93,7 @@ class Sections {
 
   /// A point at the low side where a grain would find the surface elsewhere, if there is one.
   std::optional<Vec3> difference() {
-    const double radius = 0.5 * scene_.largest;
+    const double radius = 0.5 * scene_.scale.largest;
     const int e = (d_ + 1) % 3;
     const int f = (d_ + 2) % 3;
     const Vec3 middle = 0.5 * (scene_.domain.min + scene_.domain.max);
@@ -86,9 +109,6 @@ class Sections {
   [[nodiscard]] double there() const { return there_; }  ///< [m] from its place at the high side
 
  private:
-  /// [m] Grains lose or gain m g times it as they pass: less than contacts give way by themselves.
-  [[nodiscard]] double tolerance() const { return 1e-3 * scene_.smallest; }
-
   /// Looks at the middle of a rectangle with half edges a along e and b along f, and at its
   /// quarters where the surface may be as near as a grain's radius to any of it.
   void look_round(Vec3 at, int e, double a, int f, double b) {
@@ -97,17 +117,17 @@ class Sections {
     other[d_] += scene_.domain.max[d_] - scene_.domain.min[d_];
     const double here = scene_.body.nearest(at, scene_.place).distance;
     const double there = scene_.body.nearest(other, scene_.place).distance;
-    const double radius = 0.5 * scene_.largest;
+    const auto& [largest, reach, tolerance] = scene_.scale;
     const double near = std::min(std::abs(here), std::abs(there));
     // Within the body on both sides there are no grains, and its ends may be nearer.
-    const bool is_outside = std::max(here, there) > tolerance();
-    if (is_outside && near < radius && std::abs(here - there) > tolerance()) {
+    const bool is_outside = std::max(here, there) > tolerance;
+    if (is_outside && near < reach && std::abs(here - there) > tolerance) {
       found_ = at;
       here_ = here;
       there_ = there;
       return;
     }
-    if (near > radius + std::hypot(a, b)) return;
+    if (near > reach + std::hypot(a, b)) return;
     if (std::max(a, b) < finest()) return;
     const bool is_long = a > b;
     (is_long ? a : b) *= 0.5;
@@ -117,9 +137,9 @@ class Sections {
       look_round(part, e, a, f, b);
     }
   }
-  /// [m] Half a radius, but no finer than a thousandth of the domain: bounded work.
+  /// [m] Half as far, but no finer than a thousandth of the domain: bounded work.
   [[nodiscard]] double finest() const {
-    return std::max(0.25 * scene_.largest, 1e-3 * norm(scene_.domain.max - scene_.domain.min));
+    return std::max(0.5 * scene_.scale.near, 1e-3 * norm(scene_.domain.max - scene_.domain.min));
   }
 
   const Scene& scene_;
@@ -136,18 +156,20 @@ std::string sides_text(int d) {
 std::string end_problem(const Scene& scene, int d, const Extent& extent) {
   const double low = scene.domain.min[d];
   const double high = scene.domain.max[d];
-  const double diameter = scene.largest;
+  const double diameter = scene.scale.largest;
   const auto text = [](double length) { return base::length_text(length); };
+  const std::string what =
+      diameter > 0.0 ? "grains that pass through would miss it: let it reach beyond both, from "
+                     : "the air would find it cut off: let it reach to both, from ";
   return "ends near the periodic sides " + sides_text(d) + " (" + k_axes[d] + " from " +
-         text(extent.low) + " to " + text(extent.high) +
-         "), where grains that pass through would miss it: let it reach beyond both, from " +
-         text(low - diameter) + " to " + text(high + diameter) + ", or keep it between " +
-         text(low + diameter) + " and " + text(high - diameter);
+         text(extent.low) + " to " + text(extent.high) + "), where " + what + text(low - diameter) +
+         " to " + text(high + diameter) + ", or keep it between " + text(low + diameter) + " and " +
+         text(high - diameter);
 }
 
 /// What to tell of a body that fast grains may miss.
 std::string short_reach(const Scene& scene, int d) {
-  const double diameter = scene.largest;
+  const double diameter = scene.scale.largest;
   return "reaches less than a grain's diameter beyond the periodic sides " + sides_text(d) +
          ": grains are put back late, so that fast ones may miss its ends; let it reach along " +
          k_axes[d] + " from " + base::length_text(scene.domain.min[d] - diameter) + " to " +
@@ -161,16 +183,18 @@ std::string section_problem(const Scene& scene, int d, Vec3 at, const Sections& 
   return "is not the same at the periodic sides " + sides_text(d) + ": its surface is " +
          text(sections.here()) + " from " + base::place_text(at) + ", but " +
          text(sections.there()) + " from " + base::place_text(other) +
-         ", and grains that pass would be thrust out of it or drop: let it run along " + k_axes[d] +
+         (scene.scale.largest > 0.0 ? ", and grains that pass would be thrust out of it or drop"
+                                    : ", and the air would find it cut off") +
+         ": let it run along " + k_axes[d] +
          " unchanged (for a slope, incline gravity in place of the body)";
 }
 
 /// What is wrong with a body at the periodic sides of direction d at one instant; empty: nothing.
 std::string problem_of(const Scene& scene, int d) {
   const Extent extent = extent_of(scene, d);
-  const Reach reach = Reach::of(extent, scene.domain.min[d], scene.domain.max[d], scene.largest);
-  if (reach.misses) return "";
-  if (!reach.spans) return end_problem(scene, d, extent);
+  const Reach reach =
+      Reach::of(extent, scene.domain.min[d], scene.domain.max[d], scene.scale.largest);
+  if (!reach.spans) return reach.misses ? "" : end_problem(scene, d, extent);
   Sections sections(scene, d);
   const std::optional<Vec3> at = sections.difference();
   return at ? section_problem(scene, d, *at, sections) : "";
@@ -178,7 +202,7 @@ std::string problem_of(const Scene& scene, int d) {
 
 bool is_short(const Scene& scene, int d) {
   const Reach reach =
-      Reach::of(extent_of(scene, d), scene.domain.min[d], scene.domain.max[d], scene.largest);
+      Reach::of(extent_of(scene, d), scene.domain.min[d], scene.domain.max[d], scene.scale.largest);
   return reach.spans && !reach.spans_fast;
 }
 
@@ -187,12 +211,11 @@ bool is_short(const Scene& scene, int d) {
 constexpr int k_instants = 32;
 
 void check_body(const scenario::Setup& setup, std::size_t b, const bodies::Body& body, int d,
-                const ParticleModels& models, scenario::Diagnostics& diagnostics) {
+                const Scale& scale, scenario::Diagnostics& diagnostics) {
   const int last = body.displaces() ? k_instants : 0;
   for (int n = 0; n <= last; ++n) {
     const double time = setup.time.end * n / k_instants;
-    const Scene scene{setup.domain, body, body.placement(time), models.class_diameters.front(),
-                      models.class_diameters.back()};
+    const Scene scene{setup.domain, body, body.placement(time), scale};
     const std::string problem = problem_of(scene, d);
     if (problem.empty()) {
       if (n == 0 && is_short(scene, d)) {
@@ -212,11 +235,12 @@ void check_body(const scenario::Setup& setup, std::size_t b, const bodies::Body&
 void check_bodies_at_periodic_sides(const scenario::Setup& setup, const ParticleModels& models,
                                     scenario::Diagnostics& diagnostics) {
   if (!is_periodic(setup, 0) && !is_periodic(setup, 1) && !is_periodic(setup, 2)) return;
-  if (models.class_diameters.empty()) return;
+  const std::optional<Scale> scale = scale_of(setup, models);
+  if (!scale) return;
   for (int d = 0; d < 3; ++d) {
     if (!is_periodic(setup, d)) continue;
     for (std::size_t b = 0; b < models.bodies.size(); ++b) {
-      check_body(setup, b, models.bodies[b], d, models, diagnostics);
+      check_body(setup, b, models.bodies[b], d, *scale, diagnostics);
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include "base/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -42,6 +43,7 @@ class Places {
     check_plane(diagnostics);
     check_point(diagnostics);
     check_level(diagnostics);
+    check_drops(diagnostics);
     for (const std::string_view name : {"from", "to"}) {
       if (const auto* place = get<Vec3>(name)) check_place(name, *place, diagnostics);
     }
@@ -85,7 +87,41 @@ class Places {
     const auto* point = get<Vec3>("point");
     if (point == nullptr || get<Vec3>("min") != nullptr) return;
     const auto* normal = get<Vec3>("normal", sdk::dimension::none);
-    if (normal == nullptr) check_place("point", *point, diagnostics);
+    if (normal != nullptr) return;
+    if (meets(*point, *point)) check_stretch(*point, diagnostics);
+    check_place("point", *point, diagnostics);
+  }
+  /// A stretch from a point on: sums over it are divided by the whole of its length.
+  void check_stretch(Vec3 begin, scenario::Diagnostics& diagnostics) const {
+    const auto* direction = get<Vec3>("direction", sdk::dimension::none);
+    const auto* length = get<double>("length");
+    if (direction == nullptr || length == nullptr || !(norm(*direction) > 0.0)) return;
+    const Vec3 end = begin + *length / norm(*direction) * *direction;
+    if (meets(end, end)) return;
+    diagnostics.error(spec_.model.where,
+                      path("length") + ": the stretch from " + base::place_text(begin) +
+                          " ends at " + base::place_text(end) + ", outside" + domain_name() +
+                          ": nothing is seen there, and what it tells would be too small; make it "
+                          "shorter");
+  }
+  /// Levels below a place, along gravity.
+  void check_drops(scenario::Diagnostics& diagnostics) const {
+    const auto* from = get<Vec3>("from");
+    const auto* drops = get<std::vector<double>>("drops");
+    if (from == nullptr || drops == nullptr || !(norm(gravity_) > 0.0)) return;
+    const Vec3 down = gravity_ / norm(gravity_);
+    double lowest = 0.0;
+    for (int d = 0; d < 3; ++d) {
+      lowest += ((down[d] > 0.0 ? domain_.max[d] : domain_.min[d]) - (*from)[d]) * down[d];
+    }
+    for (const double drop : *drops) {
+      if (drop <= lowest + slack_) continue;
+      diagnostics.error(spec_.model.where, path("drops") + ": " + base::length_text(drop) +
+                                               " below " + base::place_text(*from) + " lies below" +
+                                               domain_name() + ", which ends " +
+                                               base::length_text(std::max(0.0, lowest)) +
+                                               " below it: nothing is seen there; leave it out");
+    }
   }
   /// A direction of which the part across gravity counts.
   void check_level(scenario::Diagnostics& diagnostics) const {
@@ -132,9 +168,12 @@ class Places {
   [[nodiscard]] std::string path(std::string_view name) const {
     return spec_.model.path + "." + std::string(name);
   }
-  [[nodiscard]] std::string domain_text() const {
+  [[nodiscard]] std::string domain_name() const {
     return " the domain, from " + base::place_text(domain_.min) + " to " +
-           base::place_text(domain_.max) + ": nothing is seen there; move it inside";
+           base::place_text(domain_.max);
+  }
+  [[nodiscard]] std::string domain_text() const {
+    return domain_name() + ": nothing is seen there; move it inside";
   }
 
   const scenario::DomainSpec& domain_;

@@ -10,8 +10,8 @@ namespace dust::preflight {
 
 /// Refuses sensors that look where nothing is: a box from `min` to `max` apart from the domain, a
 /// place among `points`, `from` or `to` outside it, a plane (`point`, `normal`) that its box does
-/// not meet. Warns of `points`, at which the air is asked, in bodies. Lengths of these names, of
-/// any sensor.
+/// not meet, a stretch (`point`, `direction`, `length`) that ends beyond it, `drops` below it.
+/// Warns of `points`, at which the air is asked, in bodies. Lengths of these names, of any sensor.
 void check_sensor_places(const scenario::Setup& setup, const bodies::BodySet& bodies,
                          const registry::Registry& registry, scenario::Diagnostics& diagnostics);
 

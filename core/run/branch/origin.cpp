@@ -2,6 +2,7 @@
 #include "run/branch/origin.hpp"
 
 #include "base/error.hpp"
+#include "base/shell_word.hpp"
 #include "base/text.hpp"
 #include "scenario/diagnostics.hpp"
 #include "scenario/text/tree.hpp"
@@ -59,9 +60,7 @@ std::vector<Kept> kept_in(const fs::path& folder) {
 /// Throws base::UserError where there is none.
 fs::path find_state(const scenario::StartSpec& start) {
   if (!has_origin(start)) {
-    refuse(start, start.folder.string() +
-                      " holds no checkpoint.h5: run that scenario first, with -o " +
-                      start.folder.string());
+    refuse(start, no_origin_text(start));
   }
   return *state_file(start);
 }
@@ -97,6 +96,11 @@ std::optional<fs::path> state_file(const scenario::StartSpec& start) {
 bool has_origin(const scenario::StartSpec& start) {
   std::error_code none;
   return fs::is_regular_file(newest_of(start.folder), none);
+}
+
+std::string no_origin_text(const scenario::StartSpec& start) {
+  return start.folder.string() + " holds no checkpoint.h5: run that scenario first, with -o " +
+         base::shell_word(start.folder.string());
 }
 
 std::vector<double> class_diameters_of(const io::StoredState& state) {

@@ -55,6 +55,8 @@ class Origin {
 
 /// Whether there is a run to start from yet.
 [[nodiscard]] bool has_origin(const scenario::StartSpec& start);
+/// What to do where there is none.
+[[nodiscard]] std::string no_origin_text(const scenario::StartSpec& start);
 
 /// [m] the sizes of grains in a checkpoint.
 std::vector<double> class_diameters_of(const io::StoredState& state);

@@ -2,6 +2,7 @@
 #include "run/branch/preview.hpp"
 
 #include "run/branch/branch.hpp"
+#include "run/branch/origin.hpp"
 #include "run/dust/hoods.hpp"
 #include "run/folder/input_digests.hpp"
 
@@ -13,10 +14,7 @@ std::optional<StartFacts> preview_start(const scenario::ReadResult& read,
   if (!read.start.from) return std::nullopt;
   const scenario::StartSpec& start = *read.start.from;
   if (!has_origin(start)) {
-    diagnostics.warning(start.where, "start_from: " + start.folder.string() +
-                                         " holds no checkpoint.h5 yet: run that scenario first, "
-                                         "with -o " +
-                                         start.folder.string());
+    diagnostics.error(start.where, "start_from: " + no_origin_text(start));
     return std::nullopt;
   }
   Branch branch(read, InputDigests().of(read), registry, diagnostics);

@@ -168,8 +168,8 @@ void read_fluid_forces(Reading& reading, MapReader& top) {
   std::vector<const sdk::FluidForce*> models;
   for (std::size_t n = 0; n < list->value.items.size(); ++n) {
     const Node& item = list->value.items[n];
-    MapReader reader(item, "fluid_forces[" + std::to_string(n) + "]", item.where,
-                     reading.diagnostics);
+    MapReader reader = MapReader::of_model(item, "fluid_forces[" + std::to_string(n) + "]",
+                                           item.where, reading.diagnostics);
     if (!item.is_map()) continue;
     ReadModel force = reading.models.read(reader, "model", "fluid_force");
     reader.finish();

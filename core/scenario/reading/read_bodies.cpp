@@ -79,6 +79,25 @@ std::optional<RemovalSpec> read_removal(Reading& reading, MapReader& reader, Nod
   return RemovalSpec{read.at, read.kinetic_energy_per_grain, read.after};
 }
 
+/// A flat box will do on a flat face; an edge or a point is no opening.
+void check_opening(Reading& reading, const SuctionBlock& read, Mark where,
+                   const std::string& path) {
+  std::string flat;
+  int count = 0;
+  for (int d = 0; d < 3; ++d) {
+    if (read.max[d] < read.min[d]) {
+      reading.error(where, path + ".max: " + "xyz"[d] + " is below that of min");
+      return;
+    }
+    if (read.max[d] > read.min[d]) continue;
+    flat += std::string(flat.empty() ? "" : " and ") + "xyz"[d];
+    ++count;
+  }
+  if (count < 2) return;
+  reading.error(where, path + ": the opening has no width along " + flat +
+                           ": 'max' must lie above 'min' along two axes at least");
+}
+
 std::optional<SuctionSpec> read_suction(Reading& reading, MapReader& reader, Node& written) {
   const Entry* entry = reader.optional("suction");
   if (entry == nullptr) return std::nullopt;
@@ -88,11 +107,7 @@ std::optional<SuctionSpec> read_suction(Reading& reading, MapReader& reader, Nod
   const auto read = block<SuctionBlock>(inner, &values);
   inner.finish();
   if (inner.is_good()) {
-    for (int d = 0; d < 3; ++d) {
-      if (read.max[d] >= read.min[d]) continue;
-      reading.error(mark_of(entry->value, "max"),
-                    reader.path_of("suction") + ".max: " + "xyz"[d] + " is below that of min");
-    }
+    check_opening(reading, read, mark_of(entry->value, "max"), reader.path_of("suction"));
     try {
       static_cast<void>(sdk::Table(read.times, read.factors, "times", "factors"));
     } catch (const sdk::ParameterError& e) {

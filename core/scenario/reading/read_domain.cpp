@@ -82,7 +82,8 @@ Node read_side(Reading& reading, const Entry& entry, std::size_t n, bool& is_rea
   } else if (has_air && air->value.is_text()) {
     reading.error(air->value.where, reader.path_of("air") +
                                         ": {model: NAME} or periodic is expected, " + "not " +
-                                        kind_text(air->value));
+                                        kind_text(air->value) +
+                                        ": write {model: " + printable(air->value.text) + "}");
   } else if (has_air) {
     MapReader inner(air->value, reader.path_of("air"), air->where, reading.diagnostics);
     auto model = reading.models.read(inner, "model", "boundary");

@@ -48,7 +48,8 @@ ReadModel read_part(Reading& reading, MapReader& reader, const std::string& key,
                     Node& written) {
   const Entry* entry = is_required ? reader.required(key, "{model: ...}") : reader.optional(key);
   if (entry == nullptr) return {};
-  MapReader inner(entry->value, reader.path_of(key), entry->where, reading.diagnostics);
+  MapReader inner =
+      MapReader::of_model(entry->value, reader.path_of(key), entry->where, reading.diagnostics);
   if (!entry->value.is_map()) return {};
   ReadModel model = reading.models.read(inner, "model", key);
   inner.finish();

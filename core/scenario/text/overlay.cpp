@@ -49,6 +49,16 @@ class IncludeReader {
  public:
   explicit IncludeReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
+  /// The file with all that it includes; nothing where a part cannot be read: what that gives would
+  /// be told to be missing.
+  std::optional<Node> read_whole(const fs::path& file) {
+    auto root = read(file, nullptr);
+    return is_whole_ ? std::move(root) : std::nullopt;
+  }
+
+ private:
+  static constexpr int k_max_files = 200;
+
   std::optional<Node> read(const fs::path& file, const Mark* from) {
     const std::string shown = file.generic_string();
     std::string why;
@@ -87,10 +97,6 @@ class IncludeReader {
     merge_scenario(merged, std::move(*root));
     return merged;
   }
-
- private:
-  static constexpr int k_max_files = 200;
-
   static fs::path identity(const fs::path& file) {
     std::error_code code;
     fs::path same = fs::weakly_canonical(file, code);
@@ -105,15 +111,19 @@ class IncludeReader {
       if (!name.is_text() || name.text.empty()) {
         diagnostics_.error(name.where, "include: a file name or a list of them is expected, not " +
                                            kind_text(name));
+        is_whole_ = false;
         continue;
       }
       const fs::path file = (from.parent_path() / name.text).lexically_normal();
       if (std::find(open_.begin(), open_.end(), identity(file)) != open_.end()) {
         diagnostics_.error(name.where,
                            "include: " + file.generic_string() + " includes itself in a circle");
+        is_whole_ = false;
         continue;
       }
-      if (auto node = read(file, &name.where)) merge_scenario(base, std::move(*node));
+      auto node = read(file, &name.where);
+      is_whole_ = is_whole_ && node.has_value();
+      if (node) merge_scenario(base, std::move(*node));
     }
     return base;
   }
@@ -121,6 +131,7 @@ class IncludeReader {
   Diagnostics& diagnostics_;
   std::vector<fs::path> open_;
   int files_read_ = 0;
+  bool is_whole_ = true;
 };
 
 /// One step of a dotted path: a key, or an index into a list.
@@ -198,7 +209,7 @@ std::string joined(const std::vector<Step>& steps, std::size_t count) {
 }  // namespace
 
 std::optional<Node> read_with_includes(const fs::path& file, Diagnostics& diagnostics) {
-  return IncludeReader(diagnostics).read(file, nullptr);
+  return IncludeReader(diagnostics).read_whole(file);
 }
 
 namespace {

@@ -309,7 +309,7 @@ std::optional<Value> read_value(const Node& node, const Parameter& parameter,
 }
 
 MapReader::MapReader(const Node& node, std::string path, Mark where, Diagnostics& diagnostics,
-                     std::string whole)
+                     std::string whole, Of of)
     : node_(node),
       path_(std::move(path)),
       where_(std::move(where)),
@@ -317,7 +317,10 @@ MapReader::MapReader(const Node& node, std::string path, Mark where, Diagnostics
       whole_(std::move(whole)) {
   if (node_.is_map()) return;
   is_good_ = false;
-  diagnostics_.error(node_.where, path_ + ": a map of keys is expected, not " + kind_text(node_));
+  const bool is_name = of == Of::model && node_.is_text() && !node_.is_word("none");
+  diagnostics_.error(node_.where,
+                     path_ + ": a map of keys is expected, not " + kind_text(node_) +
+                         (is_name ? ": write {model: " + printable(node_.text) + "}" : ""));
 }
 
 const Entry* MapReader::optional(const std::string& key) {

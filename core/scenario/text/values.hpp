@@ -29,10 +29,17 @@ std::string type_text(sdk::ParameterType type);
 /// Reads the keys of one map and remembers which ones there may be, so that all others are errors.
 class MapReader {
  public:
+  /// What a map is, for one who gave a word in its place.
+  enum class Of { keys, model };
   /// `where` is the place to name when a key is missing; `path` is dotted, "" for the whole file,
   /// which messages call `whole`.
   MapReader(const Node& node, std::string path, Mark where, Diagnostics& diagnostics,
-            std::string whole = "the scenario");
+            std::string whole = "the scenario", Of of = Of::keys);
+  /// The map of a model.
+  static MapReader of_model(const Node& node, std::string path, Mark where,
+                            Diagnostics& diagnostics) {
+    return {node, std::move(path), std::move(where), diagnostics, "the scenario", Of::model};
+  }
 
   /// The entry of a key that may be there.
   const Entry* optional(const std::string& key);

@@ -474,10 +474,28 @@ class SpecReader {
 
 }  // namespace
 
+namespace {
+
+/// Rather than one error for each key of a scenario.
+bool is_scenario(const Node& root, const std::filesystem::path& file,
+                 scenario::Diagnostics& diagnostics) {
+  for (const char* key : {"base", "measure", "calibrate", "vary", "zip", "cases", "sample"}) {
+    if (root.find(key) != nullptr) return false;
+  }
+  const Entry* domain = root.find("domain");
+  if (domain == nullptr) return false;
+  diagnostics.error(domain->where, "this is a scenario, not a study: engine run " +
+                                       file.generic_string() +
+                                       " runs it; a study names it as its 'base'");
+  return true;
+}
+
+}  // namespace
+
 std::optional<Spec> read_spec(const std::filesystem::path& file,
                               scenario::Diagnostics& diagnostics) {
   auto root = scenario::read_with_includes(file, diagnostics);
-  if (!root) return std::nullopt;
+  if (!root || is_scenario(*root, file, diagnostics)) return std::nullopt;
   if (root->where.line == 0) root->where = {file.generic_string(), 1, 1};
   return SpecReader(*root, file, diagnostics).read();
 }

@@ -163,7 +163,7 @@ std::string study_schema() {
       {"measure", described(map_of(measure),
                             "Names and what is taken from every run: "
                             "sensors.SENSOR.FIGURE or a figure of summary.json, "
-                            "with another unit if wanted.")},
+                            "with another unit if wanted. Required unless calibrate is given.")},
       {"expect", described({{"type", "array"}, {"items", expectation()}},
                            "Signs of effects stated before the runs, checked in the report.")},
       {"run", described(object(properties_of(Execution::schema())), "How many runs at a time.")},
@@ -174,6 +174,8 @@ std::string study_schema() {
                         {"title", "Study of the dust engine"}};
   const OrderedJson whole = object(properties, OrderedJson::array({"base"}));
   for (const auto& [key, value] : whole.items()) schema[key] = value;
+  schema["anyOf"] = OrderedJson::array({{{"required", OrderedJson::array({"measure"})}},
+                                        {{"required", OrderedJson::array({"calibrate"})}}});
   return schema.dump(2) + "\n";
 }
 

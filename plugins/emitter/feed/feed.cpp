@@ -189,9 +189,12 @@ class Feed final : public sdk::Emitter {
     has_common_ = common > 0.0;
     released_.assign(n, 0);
     for (int d = 0; d < 3; ++d) {
-      if (d != axis_ && p_.max[d] - p_.min[d] < sizes_.largest()) {
-        throw sdk::ParameterError("the opening is narrower than the largest grain");
-      }
+      const double width = p_.max[d] - p_.min[d];
+      if (d == axis_ || width >= sizes_.largest()) continue;
+      std::ostringstream text;
+      text << "the opening is narrower than the largest grain: " << width << " m along "
+           << "xyz"[d] << ", and the grain has " << sizes_.largest() << " m";
+      throw sdk::ParameterError(text.str());
     }
   }
 

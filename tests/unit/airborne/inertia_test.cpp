@@ -6,8 +6,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 using namespace dust;
 using namespace dust::test;
@@ -115,4 +117,46 @@ TEST_CASE(
   CHECK(distance > 0.1 * std::exp(0.2 * k_turn * time) * 0.95);
   CHECK(distance < 0.1 * std::exp(0.2 * std::sqrt(2.0) * k_turn * time) * 1.05);
   box.each_cell([&](std::size_t cell, Vec3) { CHECK(box.mass()[cell] >= 0.0); });
+}
+
+TEST_CASE("cells in which the drift is limited shall be the mirrored ones in a mirrored flow") {
+  // The gas speeds up between two planes, off the middle, along one axis.
+  const auto marked = [](int axis, bool is_mirrored, bool is_periodic) {
+    constexpr int k_cells = 20;
+    std::array<int, 3> cells{1, 1, 1};
+    cells[static_cast<std::size_t>(axis)] = k_cells;
+    Vec3 size{1.0 / k_cells, 1.0 / k_cells, 1.0 / k_cells};
+    size[axis] = 1.0;
+    std::array<bool, 3> periodic{true, true, true};
+    periodic[static_cast<std::size_t>(axis)] = is_periodic;
+    Box box(cells, size, periodic);
+    box.dust().inertia_time = 0.05;
+    box.set_velocity([&](Vec3 x) {
+      const double place = is_mirrored ? 1.0 - x[axis] : x[axis];
+      Vec3 u;
+      u[axis] = (is_mirrored ? -1.0 : 1.0) * (1.0 + 5.0 * std::clamp(place - 0.25, 0.0, 0.2));
+      return u;
+    });
+    GasAcceleration acceleration(box.grid(), box.dust().inertia_time);
+    acceleration.find(box.flow(), 1e-4);
+    Transport transport(box.grid());
+    transport.prepare(box.flow(), &acceleration);
+    Losses losses;
+    losses.outlets.resize(2, 0.0);
+    transport.advance(box.flow(), box.dust(), 1.0, {}, 1e-4, box.mass(), losses);
+    std::vector<float> all;
+    box.each_cell([&](std::size_t cell, Vec3) { all.push_back(transport.limited()[cell]); });
+    if (is_mirrored) std::reverse(all.begin(), all.end());
+    return all;
+  };
+  for (const int axis : {0, 1, 2}) {
+    for (const bool is_periodic : {false, true}) {
+      CAPTURE(axis);
+      CAPTURE(is_periodic);
+      const std::vector<float> cells = marked(axis, false, is_periodic);
+      CHECK(cells == marked(axis, true, is_periodic));
+      // On either side of the faces at 0.3, 0.35 and 0.4 m; at the ends the slope is half of it.
+      CHECK(std::count(cells.begin() + 3, cells.begin() + 11, 1.0F) == 4);
+    }
+  }
 }

@@ -153,6 +153,15 @@ TEST_CASE("an opening that cannot pass the flow shall be refused with the number
                   dust::sdk::ParameterError);
 }
 
+TEST_CASE("an opening narrower than the largest grain shall be refused with both sizes") {
+  auto parameters = transfer_point();
+  parameters["max"] = Vec3{34e-3, 2e-3, 0.22};
+  CHECK_THROWS_WITH_AS(ModelLoader::make<Emitter>("emitter", "feed", parameters),
+                       "the opening is narrower than the largest grain: 0.0005 m along y, and the "
+                       "grain has 0.0006 m",
+                       dust::sdk::ParameterError);
+}
+
 namespace {
 
 /// Rubble: 0.5 to 60 mm, 5 % solids.

@@ -115,6 +115,40 @@ TEST_CASE("a suction whose box holds no part of its body shall be refused with f
   }
 }
 
+TEST_CASE("a suction whose opening has no area shall be refused with file and line") {
+  const auto message_of = [](const std::string& corners) {
+    const Folder folder;
+    try {
+      static_cast<void>(preflight::read_scenario(
+          folder.write("hood.yaml", k_text),
+          {{"bodies.hood.suction", "{flow: 10 l/s, " + corners + "}"}}, shipped()));
+    } catch (const base::UserError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const auto has_text = [](const std::string& line, const std::string& text) {
+    return line.find(text) != std::string::npos;
+  };
+  // A point and a line of the underside.
+  const std::string point = message_of("min: [0.4, 0.1, 0.7 m], max: [0.4, 0.1, 0.7 m]");
+  CHECK(
+      has_text(point, "error: bodies.hood.suction: the opening has no width along x and y and z"));
+  CHECK(has_text(point, "'max' must lie above 'min' along two axes at least"));
+  CHECK(has_text(message_of("min: [0.4, 0, 0.7 m], max: [0.4, 0.2, 0.7 m]"),
+                 "no width along x and z"));
+  // Boxes beside and below an edge that reach no farther than to it, flat and not.
+  const std::string edge = message_of("min: [0.1, 0, 0.7 m], max: [0.2, 0.2, 0.7 m]");
+  CHECK(has_text(edge, "error: bodies.hood.suction: the box from min to max only touches"));
+  CHECK(has_text(message_of("min: [0.1, 0, 0.6 m], max: [0.2, 0.2, 0.7 m]"), "only touches"));
+  // A flat box across the sides of the hood meets them in lines.
+  CHECK(has_text(message_of("min: [0.1, 0, 0.75 m], max: [0.9, 0.2, 0.75 m]"), "only touches"));
+  // Boxes of which a face lies in one of the hood's, from either side; and the whole underside.
+  CHECK(message_of("min: [0.3, 0, 0.6 m], max: [0.7, 0.2, 0.7 m]").empty());
+  CHECK(message_of("min: [0.3, 0, 0.7 m], max: [0.7, 0.2, 0.75 m]").empty());
+  CHECK(message_of("min: [0.2, 0, 0.7 m], max: [0.8, 0.2, 0.7 m]").empty());
+}
+
 TEST_CASE("an opening that another body covers shall be refused, with that body and the line") {
   const auto message_of = [](const std::string& cover) {
     const Folder folder;
@@ -179,6 +213,10 @@ TEST_CASE("a class of dust that does not follow the resolved fluid shall be told
   const auto coarse = warnings({{"dust", "{field: {classes: [10, 80 um], material: sand}}"}});
   CHECK(has(coarse, "dust.field.classes: at 2 m/s dust of 80 um follows the fluid round turns"));
   CHECK_FALSE(has(coarse, "dust of 10 um"));
+  // Without the drift there is none to be limited.
+  CHECK_FALSE(
+      has(warnings({{"dust", "{field: {classes: [80 um], material: sand, inertia: false}}"}}),
+          "drift by inertia"));
 }
 
 TEST_CASE("a feed that begins or ends while rates of dust are taken shall be warned of") {

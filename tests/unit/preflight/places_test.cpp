@@ -194,6 +194,35 @@ TEST_CASE("a body that is not the same at both periodic sides shall be refused")
   CHECK(problem(beam("1 deg"), {words}) == "");
 }
 
+TEST_CASE("a body shall go on through periodic sides where there is air without grains") {
+  const auto shelf = [](const std::string& shape) {
+    return std::vector<scenario::Override>{
+        {"emitters", "{}"},
+        {"sensors", "{}"},
+        {"fluid", "{cells: [20, 10, 40], density: 1.2, viscosity: 18 uPa s}"},
+        {"domain.boundaries.front.air", "{model: no_slip}"},
+        {"domain.boundaries.back.air", "{model: total_pressure}"},
+        {"domain.boundaries.bottom.air", "{model: no_slip}"},
+        {"domain.boundaries.top.air", "{model: total_pressure}"},
+        {"bodies.shelf", "{material: sand, " + shape + "}"}};
+  };
+  const auto box = [&](const std::string& from, const std::string& to) {
+    return shelf("shape: box, min: [" + from + ", 0, 21 mm], max: [" + to + ", 50, 33 mm]");
+  };
+  const std::string ends = "bodies.shelf: ends near the periodic sides left and right";
+  CHECK(problem(box("-10", "40"), {ends, "the air would find it cut off", "from 0 m to 100 mm",
+                                   "between 0 m and 100 mm"}) == "");
+  CHECK(problem(box("60", "120"), {ends}) == "");
+  for (const auto& fine : {box("0", "100"), box("-10", "110"), box("10", "60"), box("0", "40")}) {
+    CHECK(said(fine).errors == std::vector<std::string>{});
+  }
+  CHECK(problem(shelf("shape: plane, point: [50, 0, 21 mm], normal: [-0.1, 0, 1]"),
+                {"bodies.shelf: is not the same at the periodic sides left and right",
+                 "the air would find it cut off"}) == "");
+  CHECK(said(shelf("shape: plane, point: [50, 0, 21 mm], normal: [0, -0.1, 1]")).errors ==
+        std::vector<std::string>{});
+}
+
 TEST_CASE("a body that moves to a periodic side shall be refused with when") {
   const auto shelf = [](const std::string& velocity) {
     return std::vector<scenario::Override>{
@@ -278,6 +307,33 @@ TEST_CASE("a lone point outside the domain shall be refused") {
   CHECK(said(load("[20, 25, 30 mm]")).errors == std::vector<std::string>{});
   CHECK(problem(load("[20, 25, 30]"), {"sensors.load.point: (20, 25, 30) m lies outside the domain",
                                        "nothing is seen there"}) == "");
+}
+
+TEST_CASE("a stretch that ends outside the domain shall be refused with its end") {
+  const auto load = [](const std::string& direction, const std::string& length) {
+    return std::vector<scenario::Override>{
+        {"sensors.load", "{model: belt_load, point: [20, 25, 30 mm], direction: " + direction +
+                             ", length: " + length + ", width: 20 mm, height: 20 mm}"}};
+  };
+  // 80 mm are left along x, 25 mm along y; a direction's own length does not matter.
+  CHECK(said(load("[1, 0, 0]", "80 mm")).errors == std::vector<std::string>{});
+  CHECK(problem(load("[4, 0, 0]", "90 mm"),
+                {"sensors.load.length: the stretch from (0.02, 0.025, 0.03) m ends at (0.11, "
+                 "0.025, 0.03) m, outside the domain",
+                 "make it shorter"}) == "");
+  CHECK(problem(load("[0, -1, 0]", "80 mm"), {"sensors.load.length: the stretch"}) == "");
+}
+
+TEST_CASE("drops of a trajectory below the domain shall be refused with where that ends") {
+  const auto drops = [](const std::string& all) {
+    return std::vector<scenario::Override>{
+        {"sensors.stream",
+         "{model: trajectory, from: [20, 25, 150 mm], drops: " + all + ", steady_after: 90 ms}"}};
+  };
+  CHECK(said(drops("[50, 150 mm]")).errors == std::vector<std::string>{});
+  CHECK(problem(drops("[50, 160 mm]"),
+                {"sensors.stream.drops: 160 mm below (0.02, 0.025, 0.15) m lies below the domain",
+                 "which ends 150 mm below it", "leave it out"}) == "");
 }
 
 TEST_CASE("a point in a body at which the air is asked shall be warned of") {

@@ -63,6 +63,10 @@ TEST_CASE("a study shall be told to be one, not key by key") {
         "study.yaml:2:1: error: this is a study, which varies the scenario of its "
         "'base': engine study " +
             study.generic_string() + " runs it, with --dry-run it is only checked");
+  const auto calibration = problems(
+      folder.write("calibration.yaml", "base: s.yaml\ncalibrate: {targets: {}, parameters: {}}\n"));
+  REQUIRE_MESSAGE(calibration.size() == 1, joined(calibration));
+  CHECK(calibration[0].starts_with("calibration.yaml:1:1: error: this is a study"));
 }
 
 TEST_CASE("what YAML misses shall be told with what to look for") {
@@ -179,7 +183,8 @@ TEST_CASE("a value of another kind shall be told with the kind expected") {
   check("time: {end: 1 s, fluid_step: 1 ms, output_every: 20 ms}", "time: 1 s",
         "s.yaml:2:7: error: time: a map of keys is expected, not '1 s'");
   check("drag: {model: gidaspow}", "drag: gidaspow",
-        "s.yaml:38:7: error: drag: a map of keys is expected, not 'gidaspow'");
+        "s.yaml:38:7: error: drag: a map of keys is expected, not 'gidaspow': write {model: "
+        "gidaspow}");
   check("enabled: false", "enabled: no",
         "s.yaml:24:20: error: bodies.plate.enabled: 'no' is not true or false: write false");
   check("end: 1 s", "end: .inf", "s.yaml:2:13: error: time.end: .inf is not a finite number");

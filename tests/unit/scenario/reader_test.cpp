@@ -128,6 +128,17 @@ TEST_CASE("files that include each other in a circle shall be refused") {
   CHECK(missing[0].starts_with("c.yaml:42:10: error: include: "));
 }
 
+TEST_CASE("what an included file gives that cannot be read shall not be told to be missing") {
+  const Folder folder;
+  // All keys but the name stand in the file that is not there.
+  for (const std::string include : {"not_there.yaml", "self.yaml", "[broken.yaml]"}) {
+    CAPTURE(include);
+    folder.write("broken.yaml", "time: {end: 1 s\n");
+    const auto lines = problems(folder.write("self.yaml", "name: a\ninclude: " + include + "\n"));
+    REQUIRE_MESSAGE(lines.size() == 1, joined(lines));
+  }
+}
+
 TEST_CASE("aliases shall stand for what they name") {
   const Folder folder;
   auto text = changed(k_small, "air: {model: slip}", "air: &smooth {model: slip}");

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
 #include <utility>
 
 using namespace dust;
@@ -250,6 +251,27 @@ TEST_CASE("a plane without a normal shall be refused") {
   auto parameters = k_lip;
   parameters["normal"] = Vec3{0, 0, 0};
   CHECK_THROWS_AS((void)kind().make(parameters), sdk::ParameterError);
+}
+
+TEST_CASE("a rectangle without area shall be refused") {
+  const auto message_of = [](Vec3 max, Vec3 normal) {
+    auto parameters = k_lip;
+    parameters["max"] = max;
+    parameters["normal"] = normal;
+    try {
+      static_cast<void>(kind().make(parameters));
+    } catch (const sdk::ParameterError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const Vec3 along_x{1, 0, 0};
+  // From (0.08, 0, 0.2) m: as it is, a point, a line, and a box of which a plane cuts a line out.
+  CHECK(message_of({0.08, 0.011, 0.21}, along_x).empty());
+  CHECK(message_of({0.09, 0.011, 0.21}, {1, 0, 1}).empty());
+  CHECK(message_of({0.08, 0, 0.2}, along_x).find("the opening has no area") != std::string::npos);
+  CHECK(message_of({0.08, 0.011, 0.2}, along_x).find("no width along z") != std::string::npos);
+  CHECK(message_of({0.08, 0.011, 0.21}, {1, 0, 1}).find("no width along x") != std::string::npos);
 }
 
 TEST_CASE("dust through an opening shall count per tonne emitted in the same time") {

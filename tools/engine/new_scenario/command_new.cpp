@@ -46,11 +46,29 @@ void write_new(const Starter& starter, const std::map<std::string, std::string>&
             << base::shell_word(file.string()) << '\n';
 }
 
+/// `given` is no scenario to start from; throws base::UserError.
+[[noreturn]] void refuse_name(const std::string& given) {
+  std::vector<std::string> names;
+  for (const Starter& starter : starters()) names.emplace_back(starter.name);
+  if (given.empty()) {
+    throw base::UserError("engine new: error: which scenario? There are: " +
+                          scenario::listed(names));
+  }
+  throw base::UserError("engine new: error: there is no scenario " + scenario::in_quotes(given) +
+                        " to start from" + scenario::suggestion(given, names, "there are"));
+}
+
 }  // namespace
 
 void add_new(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("new", "Write a scenario to start from, in your sizes");
-  command->require_subcommand(1);
+  command->require_subcommand(0, 1);
+  // Takes what is none of them, to say which there are.
+  command->allow_extras();
+  command->callback([command] {
+    const std::vector<std::string> others = command->remaining();
+    if (command->get_subcommands().empty()) refuse_name(others.empty() ? "" : others.front());
+  });
   command->footer(
       "Examples:\n"
       "  engine new transfer --speed '2.5 m/s' --drop '1.2 ft' -o my_belt.yaml\n"
@@ -70,8 +88,11 @@ void add_new(CLI::App& app, int&) {
     one->add_option("-o,--output", arguments->output,
                     std::string("File to write (default: ") + starter.name + ".yaml)")
         ->type_name("FILE");
-    one->callback(
-        [arguments, &starter] { write_new(starter, arguments->sizes, arguments->output); });
+    one->callback([arguments, &starter, command] {
+      const std::vector<std::string> others = command->remaining(true);
+      if (!others.empty()) throw CLI::ExtrasError(others);
+      write_new(starter, arguments->sizes, arguments->output);
+    });
   }
 }
 

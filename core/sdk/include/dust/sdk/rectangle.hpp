@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace dust::sdk {
 
@@ -14,7 +15,7 @@ namespace dust::sdk {
 class Rectangle {
  public:
   /// `normal` need not have length 1; the box may have no thickness along it. ParameterError that
-  /// names 'normal' or 'max' where they are none.
+  /// names 'normal' or 'max' where they are none, or says that the box cuts no area out.
   Rectangle(Vec3 point, Vec3 normal, Vec3 min, Vec3 max)
       : point_(point),
         min_(min),
@@ -27,19 +28,23 @@ class Rectangle {
     if (!(extent.x >= 0.0 && extent.y >= 0.0 && extent.z >= 0.0)) {
       throw ParameterError("'max' must not lie below 'min'");
     }
+    // Of a flat box only a plane along its face cuts more than a line out.
+    for (int d = 0; d < 3; ++d) {
+      if (extent[d] > 0.0 || is_normal_along(d)) continue;
+      throw ParameterError(std::string("the opening has no area: it has no width along ") +
+                           "xyz"[d] + ", and the normal does not lie along that");
+    }
   }
 
   /// Of length 1.
   [[nodiscard]] Vec3 normal() const { return normal_; }
 
-  /// [m2]; ParameterError where the normal lies along no axis or the box has no extent across it.
+  /// [m2]; ParameterError where the normal lies along no axis.
   [[nodiscard]] double area() const {
     for (int d = 0; d < 3; ++d) {
-      if (std::abs(normal_[d]) <= 1.0 - k_rounding) continue;
+      if (!is_normal_along(d)) continue;
       const Vec3 extent = max_ - min_;
-      const double area = extent[(d + 1) % 3] * extent[(d + 2) % 3];
-      if (!(area > 0.0)) throw ParameterError("the opening has no area");
-      return area;
+      return extent[(d + 1) % 3] * extent[(d + 2) % 3];
     }
     throw ParameterError("'normal' must lie along one axis");
   }
@@ -67,6 +72,10 @@ class Rectangle {
 
  private:
   static constexpr double k_rounding = 1e-12;
+  [[nodiscard]] bool is_normal_along(int d) const {
+    return std::abs(normal_[d]) > 1.0 - k_rounding;
+  }
+
   Vec3 point_, normal_, min_, max_;
   /// Rounding of the interpolated point must not throw a grain out of a box without thickness.
   double tolerance_;
