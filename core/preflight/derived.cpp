@@ -8,6 +8,7 @@
 #include "preflight/emissions.hpp"
 #include "preflight/flow_check.hpp"
 #include "preflight/particle_models.hpp"
+#include "preflight/places/fall.hpp"
 #include "resolved/marker_lattice.hpp"
 #include "scenario/text/units.hpp"
 #include "setup/mark.hpp"
@@ -59,22 +60,6 @@ double expected_speed(const Setup& setup, const Emitters& emitters, double body_
   double speed = body_speed;
   for (const auto& emitter : emitters) speed = std::max(speed, emitter->largest_speed());
   return std::hypot(speed, free_fall_speed(setup));
-}
-
-/// [m/s] at which a lone sphere settles in the fluid, with the drag of Schiller and Naumann (1935):
-/// \f$ v^2 = 4 d g |\rho_s / \rho_f - 1| / (3 C_D) \f$.
-double settling_speed(const Setup& setup, double diameter, double density) {
-  constexpr int k_rounds = 60;
-  const scenario::FluidSpec& fluid = *setup.fluid;
-  const double pull =
-      4.0 / 3.0 * diameter * norm(setup.gravity) * std::abs(density / fluid.density - 1.0);
-  double speed = std::sqrt(pull);
-  for (int n = 0; n < k_rounds && speed > 0.0; ++n) {
-    const double re = fluid.density * speed * diameter / fluid.viscosity;
-    const double drag = re < 1000.0 ? 24.0 / re * (1.0 + 0.15 * std::pow(re, 0.687)) : 0.44;
-    speed = std::sqrt(speed * std::sqrt(pull / drag));
-  }
-  return speed;
 }
 
 /// [m/s] What falling grains and dust give the fluid: streams a share of their own speed; spheres
@@ -236,7 +221,7 @@ Derived derive(const Setup& setup, const registry::Registry& registry,
   Derived derived;
   derived.expected_speed = expected_speed(setup, models.emitters, body_speed);
   derived.steps = derive_steps(setup, models);
-  derived.impact = softest_impact(setup, models, derived.steps.expected_speed);
+  derived.impact = expected_impact(setup, models, registry);
   for (std::size_t n = 0; n < models.emitters.size(); ++n) {
     derived.emissions.push_back(
         count_grains(setup, models.bodies, setup.emitters[n], *models.emitters[n]));

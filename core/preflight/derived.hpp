@@ -29,7 +29,7 @@ struct ResolvedNumbers {
 struct Derived {
   double expected_speed = 0.0;  ///< [m/s] given, or of bodies, emitters, drops, openings and sides
   particles::TimeSteps steps;   ///< as the run takes them; without classes where no grains come
-  ImpactOverlap impact;         ///< the softest at the speed that the steps are made for
+  ImpactOverlap impact;         ///< the softest, at the expected speed or that of a fall
   std::vector<EmissionNumbers> emissions;
   std::vector<ResolvedNumbers> resolved;
   BodyWork bodies;

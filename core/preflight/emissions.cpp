@@ -127,15 +127,15 @@ void follow_some(const Setup& setup, const bodies::BodySet& bodies, const Emitte
 }
 
 /// Lets a fresh emitter propose the grains of a short time from `request.begin` on; `step` [s] at a
-/// time.
+/// time, until these are `enough`.
 double propose(const Setup& setup, const EmitterSpec& spec, double step,
-               const sdk::EmitterRequest& request, sdk::Emitter& emitter, Requests& requests) {
+               const sdk::EmitterRequest& request, sdk::Emitter& emitter, Requests& requests,
+               std::size_t enough = k_many_proposals) {
   constexpr int k_max_steps = 50;
-  constexpr std::size_t k_enough = 20000;
   const double end = std::min(setup.time.end, request.end);
   double time = request.begin;
   const double stop = std::min(end, time + k_max_steps * setup.time.fluid_step);
-  while (time < stop && requests.size() < k_enough) {
+  while (time < stop && requests.size() < enough) {
     sdk::EmitterContext context;
     context.begin = time;
     context.end = time + step;
@@ -153,13 +153,15 @@ double propose(const Setup& setup, const EmitterSpec& spec, double step,
   return time - request.begin;
 }
 
-/// [s] In which a stream brings no more grains than can be placed quickly.
-double step_of(const Setup& setup, const EmitterSpec& spec, const sdk::EmitterRequest& request) {
+/// [s] In which a stream brings no more grains than can be placed quickly, or `at_a_time`.
+double step_of(const Setup& setup, const EmitterSpec& spec, const sdk::EmitterRequest& request,
+               std::size_t at_a_time = k_many_proposals) {
   constexpr double k_at_a_time = 5000.0;
   const double mass = mean_mass(request, density_of(setup, spec));
   const double per_second = mass > 0.0 ? request.mass_flow / mass : 0.0;
-  return per_second > 0.0 ? std::min(setup.time.fluid_step, k_at_a_time / per_second)
-                          : setup.time.fluid_step;
+  if (!(per_second > 0.0)) return setup.time.fluid_step;
+  return std::min(setup.time.fluid_step,
+                  std::min(k_at_a_time, static_cast<double>(at_a_time)) / per_second);
 }
 
 /// [kg] by material of grains at once whose sizes the emitter does not say; of very many, none.
@@ -183,11 +185,18 @@ void take_sizes(const sdk::EmitterRequest& request, EmissionNumbers& numbers) {
 
 }  // namespace
 
+bool brings_too_many(const Setup& setup, const EmitterSpec& spec, const sdk::Emitter& emitter) {
+  constexpr double k_too_many = 2e5;
+  const auto request = emitter.request();
+  const double mass = mean_mass(request, density_of(setup, spec));
+  return mass > 0.0 && request.mass_flow / mass * setup.time.fluid_step > k_too_many;
+}
+
 std::vector<sdk::InsertionRequest> proposals(const Setup& setup, const EmitterSpec& spec,
-                                             sdk::Emitter& emitter) {
+                                             sdk::Emitter& emitter, std::size_t enough) {
   const auto request = emitter.request();
   Requests requests;
-  propose(setup, spec, step_of(setup, spec, request), request, emitter, requests);
+  propose(setup, spec, step_of(setup, spec, request, enough), request, emitter, requests, enough);
   for (auto& one : requests) one = placed(setup, spec, one);
   return requests;
 }
@@ -209,8 +218,6 @@ std::vector<std::vector<sdk::InsertionRequest>> first_grains(const Setup& setup,
 
 EmissionNumbers count_grains(const Setup& setup, const bodies::BodySet& bodies,
                              const EmitterSpec& spec, sdk::Emitter& emitter) {
-  // More grains per fluid step than any run can follow: counted by shares alone.
-  constexpr double k_too_many = 2e5;
   EmissionNumbers numbers;
   numbers.emitter = spec.name;
   numbers.mass_flow = emitter.requested_mass_flow();
@@ -233,8 +240,8 @@ EmissionNumbers count_grains(const Setup& setup, const bodies::BodySet& bodies,
     take_sizes(request, numbers);
     return numbers;
   }
-  const double per_second = mass > 0.0 ? request.mass_flow / mass : 0.0;
-  if (per_second * setup.time.fluid_step > k_too_many) {
+  if (brings_too_many(setup, spec, emitter)) {  // counted by shares alone
+    const double per_second = request.mass_flow / mass;
     numbers.real_per_second = per_second;
     numbers.computed_per_second = per_second;
     take_sizes(request, numbers);

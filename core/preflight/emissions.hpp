@@ -6,6 +6,7 @@
 #include "preflight/particle_models.hpp"
 #include "setup/setup.hpp"
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -39,11 +40,20 @@ struct EmissionNumbers {
   double thickness = 0.0;       ///< [m] of the solids where they are carried, without pores
 };
 
+/// Whether a stream brings more grains per fluid step than any run can follow: placing them for a
+/// look takes long.
+bool brings_too_many(const scenario::Setup& setup, const scenario::EmitterSpec& spec,
+                     const sdk::Emitter& emitter);
+
+/// As many tell what a stream is like.
+inline constexpr std::size_t k_many_proposals = 20000;
+
 /// Grains that a fresh emitter proposes in the first steps of its stream, or at once, where they
-/// come in, in the domain's frame.
+/// come in, in the domain's frame: no more steps once these are `enough`.
 std::vector<sdk::InsertionRequest> proposals(const scenario::Setup& setup,
                                              const scenario::EmitterSpec& spec,
-                                             sdk::Emitter& emitter);
+                                             sdk::Emitter& emitter,
+                                             std::size_t enough = k_many_proposals);
 
 /// The grains that each emitter proposes first: of streams, and where `has_fillings` of those that
 /// come at once, unless they are so many that placing them takes time. The emitters have proposed

@@ -54,7 +54,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_belts(read.setup, models, diagnostics);
   check_reach(read.setup, models, diagnostics);
   check_cohesion(read.setup, models, registry, diagnostics);
-  check_softness(read.setup, models, diagnostics);
+  check_softness(read.setup, models, registry, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);
   check_sensor_places(read.setup, models.bodies, registry, diagnostics);
   check_first_looks(read.setup, models.class_diameters, registry, diagnostics);

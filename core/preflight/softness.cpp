@@ -98,7 +98,11 @@ ImpactOverlap softest_impact(const Setup& setup, const ParticleModels& models, d
         const double ratio =
             2.0 * largest_overlap(setup, models, kinds, law, grain, m, other) / diameter;
         if (ratio > softest.ratio * (1.0 + 1e-9)) {
-          softest = {ratio, diameter, speed, n, law.contact->has_hertz_force()};
+          softest = {.ratio = ratio,
+                     .diameter = diameter,
+                     .speed = speed,
+                     .interaction = n,
+                     .is_hertz = law.contact->has_hertz_force()};
         }
       };
       look(law.material_i, law.material_j);
@@ -141,26 +145,47 @@ std::string stiffness_advice(const Setup& setup, const ImpactOverlap& impact) {
          " times as stiff";
 }
 
-void check_softness(const Setup& setup, const ParticleModels& models,
-                    scenario::Diagnostics& diagnostics) {
-  if (models.class_diameters.empty()) return;
-  const double speed =
+ImpactOverlap expected_impact(const Setup& setup, const ParticleModels& models,
+                              const registry::Registry& registry) {
+  if (models.class_diameters.empty()) return {};
+  const double of_steps =
       particles::time_steps(setup, models.bodies, models.laws, models.class_diameters)
           .expected_speed;
-  const ImpactOverlap impact = softest_impact(setup, models, speed);
-  if (!(impact.ratio > k_warned_overlap)) return;
+  const Fall fall = largest_fall(setup, models.bodies, registry);
+  // What the scenario says of its grains holds.
+  const bool is_of_fall = !(setup.time.expected_speed > 0.0) && fall.speed > of_steps;
+  ImpactOverlap impact = softest_impact(setup, models, of_steps);
+  const double ratio_in_stream = impact.ratio;
+  if (is_of_fall) impact = softest_impact(setup, models, fall.speed);
+  impact.ratio_in_stream = ratio_in_stream;
+  impact.fall = fall;
+  impact.is_of_fall = is_of_fall;
+  return impact;
+}
+
+std::string impact_speed_text(const ImpactOverlap& impact) {
+  return base::digits_text(impact.speed, 3) + " m/s" +
+         (impact.is_of_fall ? ", after a fall of " + base::length_text(impact.fall.height, 3) : "");
+}
+
+void check_softness(const Setup& setup, const ParticleModels& models,
+                    const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
+  const ImpactOverlap impact = expected_impact(setup, models, registry);
+  if (!(impact.ratio > k_warned_after_fall) && !(impact.ratio_in_stream > k_warned_overlap)) return;
   const scenario::InteractionSpec& pair = setup.interactions[impact.interaction];
   diagnostics.warning(
       pair.contact.where,
       pair.contact.path + ": grains of " + base::length_text(impact.diameter) + " overlap by " +
-          overlap_text(impact.ratio) + " in an impact at " + base::digits_text(speed, 3) +
-          " m/s (" + name_of(setup, pair.material_i) + " on " + name_of(setup, pair.material_j) +
+          overlap_text(impact.ratio) + " in an impact at " + impact_speed_text(impact) + " (" +
+          name_of(setup, pair.material_i) + " on " + name_of(setup, pair.material_j) +
           "), which is too soft: " +
           (impact.ratio < 1.0 ? "contacts last long, and loads press grains deep into each other"
                               : "they go through each other and through walls") +
           "; for " + base::digits_text(100.0 * k_soft_overlap, 2) + " % " +
           stiffness_advice(setup, impact) +
-          ", or a lower time.expected_speed if they meet more slowly");
+          (impact.is_of_fall ? ", or say by time.expected_speed how fast they meet if something "
+                               "breaks their fall"
+                             : ", or a lower time.expected_speed if they meet more slowly"));
 }
 
 }  // namespace dust::preflight

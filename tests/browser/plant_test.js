@@ -9,10 +9,12 @@ const Numbers = require(path.join(folder, 'numbers.js'));
 
 // Elements as lists of their children: only the texts count.
 const Dust = {...Numbers, data: {}, el: (tag, attributes, ...children) => ({tag, attributes, children})};
+const load = (name) => new Function('Dust', fs.readFileSync(path.join(folder, name), 'utf8'))(Dust);
+load('parts.js');
 Dust.p = (attributes, ...children) => Dust.el('p', attributes, ...children.flat());
 Dust.bar = () => '';
 const text = (node) => (node === null || node === undefined || node === false ? '' : typeof node === 'string' ? node + '|' : node.children.map(text).join(''));
-for (const name of ['plant.js', 'space_axes.js']) new Function('Dust', fs.readFileSync(path.join(folder, name), 'utf8'))(Dust);
+for (const name of ['plant.js', 'space_axes.js']) load(name);
 
 // Details that sensors mark stand in the order of the scenario and of their rank, whatever their names.
 Numbers.set_extent(3);
@@ -28,6 +30,16 @@ const cards = Dust.overview_answers({
 });
 assert.deepStrictEqual(cards.map(text), ['B|2\u202fs|mean time|', 'A|360\u202ft/h|alpha|zeta|0.5|',
   'Nothing counted|1 sensor|d: nothing came by, or their start-up had not passed.|']);
+// Why a figure has no error stands beside it. Less than a nanogram per m3, hour or tonne is none: what spreads through the cells of a
+// field by rounding is not told as dust.
+const face = (...values) => text(Dust.overview_answers({summary: {sensors: {face: Object.fromEntries(values.map(([value, more], k) => [`point_${k + 1}/inhalable`, marked(value, 'mg/m3', k + 1, more)]))}}})[0]);
+assert.strictEqual(face([5e-36, {uncertainty: 5.8e-36}], [1.863e-15, {no_error: 'not steady'}]), 'Face|none|point 1 / inhalable|point 2 / inhalable|none|No dust there yet: less than a nanogram per m³ is none.|');
+assert.strictEqual(face([0], [2e-9]), 'Face|none|point 1 / inhalable|point 2 / inhalable|none|No dust there yet: less than a nanogram per m³ is none.|');
+assert.strictEqual(face([1.25, {no_error: 'not steady'}], [1e-15], [2, {uncertainty: 0.1}]), 'Face|1.25\u202fmg/m³ (not steady)|point 1 / inhalable|point 2 / inhalable|none|point 3 / inhalable|2.00\u00a0±\u00a00.10\u202fmg/m³|Less than a nanogram per m³ is none.|');
+// Nothing known to within milligrams is not none.
+assert.strictEqual(face([1e-9, {uncertainty: 0.5}]), 'Face|0.00\u00a0±\u00a00.50\u202fmg/m³|point 1 / inhalable|');
+assert.ok(face([0], [0]).startsWith('Nothing counted|'));
+assert.ok(text(Dust.overview_answers({summary: {sensors: {a: {rate: marked(1e-13, 'kg/h', 1)}}}})[0]).includes('none|rate|Less than a nanogram per h is none.|'));
 
 // Dust that the load carries: sums over the classes; what settles, leaves and is drawn out are told apart.
 const dusty = {
@@ -79,18 +91,20 @@ for (const [summary, said] of [[riding_rate, '5\u202f%'], [riding, '7.5\u202f%']
 }
 const told = Dust.load_dust_answers({summary: steady, release_map: null, extraction: null}).map(text);
 assert.ok(told[0].startsWith('How much dust?|20.0\u00a0±\u00a01.0\u202fg/t|10.00\u00a0±\u00a00.50\u202fkg/h set free'), told[0]);
-assert.ok(told[0].includes('4\u202fg/t get out with the air (2\u202fkg/h)'), told[0]);
+// What has no error says why, also in the middle of a sentence.
+assert.ok(told[0].includes('4\u202fg/t get out with the air (2\u202fkg/h; not steady)'), told[0]);
+assert.ok(told[4].includes('Most gets out at left (2\u202fkg/h; not steady)'), told[4]);
 assert.ok(told[1].startsWith('From where?|Spoon|spoon|70\u202f%||grains on grains|30'), told[1]);
 assert.ok(told[2].includes('still in the air|10\u202f%|'), told[2]);
 assert.ok(told[3].startsWith('How sure?|± one standard error|Means over the last 1'), told[3]);
 assert.ok(told[3].includes('Not steady yet: what goes out at left.'), told[3]);
-assert.ok(told[4].startsWith('Where to extract?|75\u202f% caught|'), told[4]);
+assert.ok(told[4].startsWith('Where to extract?|75\u202f% caught (not steady)|'), told[4]);
 // A batch that was released before: no amount per tonne stands among the rates, and none is 0; the whole run tells it.
 const told_of = (summary) => Dust.load_dust_answers({summary, release_map: null, extraction: null}).map(text);
 const without_load = (more = {}) => Object.fromEntries(Object.entries({...steady.dust_rates, ...more}).filter(([name]) => !name.endsWith('/per_load')));
 const batch = told_of({...dusty, dust_rates: without_load()});
 assert.ok(batch[0].startsWith('How much dust?|4\u202fg/t|of all that was released, set free over the whole run|10.00\u00a0±\u00a00.50\u202fkg/h set free'), batch[0]);
-assert.ok(batch[0].includes('1\u202fg/t get out with the air (2\u202fkg/h)'), batch[0]);
+assert.ok(batch[0].includes('1\u202fg/t get out with the air (2\u202fkg/h; not steady)'), batch[0]);
 assert.ok(batch[3].includes('amounts per tonne are what has come off in the whole run'), batch[3]);
 const uneven = told_of({...steady, dust_rates: {...steady.dust_rates, 'set_free/all/per_load': {value: null, unit: 'g/t', uncertainty: null, no_error: 'feed not even'}}});
 assert.ok(uneven[0].startsWith('How much dust?|4\u202fg/t|'), uneven[0]);
@@ -99,7 +113,10 @@ assert.ok(!told[0].includes('whole run') && !told[3].includes('whole run'), told
 const shrinking = told_of({...steady, dust_rates: {...steady.dust_rates, 'deposited/all/rate': rate(8, 0.1), 'set_free/all/rate': rate(10.1234, null, {no_error: 'not steady'})}});
 assert.ok(shrinking[3].startsWith('How sure?|not steady yet|') && shrinking[3].includes('by 58\u202f% of what comes: its cloud shrinks.'), shrinking[3]);
 assert.ok(!shrinking[3].includes('settled'), shrinking[3]);
-assert.ok(shrinking[0].includes('10\u202fkg/h set free'), shrinking[0]);
+assert.ok(shrinking[0].includes('10\u202fkg/h (not steady) set free'), shrinking[0]);
+const restless = {no_error: 'not steady'}, loads = {'set_free/all/per_load': rate(20, null, restless), 'left/all/per_load': rate(0.347, null, restless)};
+const unsteady = told_of({...steady, dust_rates: {...steady.dust_rates, ...loads}});
+assert.ok(unsteady[0].startsWith('How much dust?|20\u202fg/t (not steady)|') && unsteady[0].includes('350\u202fmg/t (not steady) get out with the air (2\u202fkg/h; not steady)'), unsteady[0]);
 // At rest: shares of next to nothing are those of the whole run.
 const resting = told_of({...dusty, dust_rates: {observed: {value: 1800, unit: 's'}, 'set_free/all/rate': rate(1e-12, null), 'set_free/spoon/rate': rate(1e-12, null), 'deposited/all/rate': rate(1, null)}});
 assert.ok(resting[2].includes('settled|25\u202f%|'), resting[2]);
@@ -132,6 +149,9 @@ assert.ok(practice[0].includes('VDI 3790-3: 2.4'), practice[0]);
 assert.ok(practice[0].includes('Anderson\'s rule: '), practice[0]);
 assert.ok(practice[3].startsWith('By the indices of practice?|20\u202fJ/kg|Impacts dissipate it: spoon 150'), practice[3]);
 assert.ok(practice[3].includes('Looseness: 98\u202f% of the stream is air where it is loosest, 50\u202f%'), practice[3]);
+const drawn_along = text(Dust.indices_answer({summary: {stream_indices: {'entrained_air/flow': {value: 0.4995, unit: 'm3/s', uncertainty: null, no_error: 'not steady'},
+  'entrained_air/per_load': {value: 6, unit: 'm3/t', uncertainty: null, no_error: 'not steady'}}}}));
+assert.strictEqual(drawn_along, 'By the indices of practice?|1800\u202fm³/h (not steady)|Entrained air: the stream takes 1800\u202fm³/h (not steady) down with it (6\u202fm³/t; not steady)|');
 assert.ok(!told.some((a) => a.includes('indices of practice') || a.includes('VDI') || a.includes('Anderson')));
 const unfed = {...steady, stream_indices: {observed: {value: 2, unit: 's'}, 'impact/all/power': {value: 200, unit: 'W', uncertainty: null}}};
 assert.ok(text(Dust.indices_answer({summary: unfed})).startsWith('By the indices of practice?|200\u202fW|'));

@@ -412,6 +412,10 @@ TEST_CASE("a scenario written by engine new shall be valid in any sizes, without
     INFO(checked.err);
     CHECK(checked.status == 0);
     CHECK(checked.err.empty());
+    // Soft for quick steps, and the file says how soft and what it means.
+    const std::string text = read_file(file);
+    CHECK(text.find("so that a run takes minutes: after a fall of") != std::string::npos);
+    CHECK(text.find("# For some 5 %: young_modulus: ") != std::string::npos);
     // Never over a file that is there.
     CHECK(engine(arguments).status == 2);
   }

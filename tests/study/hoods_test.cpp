@@ -89,6 +89,28 @@ TEST_CASE("a run shall give a study of hoods, and the study what each hood captu
   CHECK(holds(unfinished.err, "study.csv:4: error: 1 of 3 points have not finished: engine study"));
 }
 
+TEST_CASE("a hood shall make grains expect its air's speed only where dust comes as grains") {
+  const TemporaryFolder folder;
+  const auto suggested = [&](const std::string& name, const std::vector<std::string>& settings) {
+    run(folder / name, settings);
+    const std::string file = folder / (name + ".yaml");
+    const auto written = engine({"suggest-hoods", folder / name, "--flows", "6, 60 l/min",
+                                 "--places", "1", "--duration", "0.12 s", "-o", file});
+    INFO(written.err);
+    REQUIRE(written.status == 0);
+    return read_file(file);
+  };
+  // 60 l/min through 20 x 10 mm: 5 m/s in the mean, twice that at the edges.
+  const std::string of_grains = suggested("grains", {});
+  CHECK(holds(of_grains, "time.expected_speed: 10 m/s"));
+  // Dust of a field makes no contacts, and grains of 60 um are none of it here.
+  const std::string of_field = suggested(
+      "field", {"dust={finer_than: 10 um, field: {classes: [5 um], material: fluff, sources: {s: "
+                "{min: [10, 1, 30 mm], max: [30, 9, 36 mm], mass_flow: [0.02 mg/s]}}}}"});
+  CHECK(holds(of_field, "flow: 60 l/min"));
+  CHECK(!holds(of_field, "expected_speed"));
+}
+
 TEST_CASE("a run for which no hood can be suggested shall be refused with place and remedy") {
   const TemporaryFolder folder;
   const fs::path out = folder / "out";

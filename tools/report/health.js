@@ -18,21 +18,53 @@ Dust.limit_texts = {
 };
 // Parts of the summary that have their own place on the page.
 Dust.shown_elsewhere = new Set(['scenario', 'version', 'status', 'threads', 'wall_s', 'cpu_s', 'simulated_s', 'dem_steps', 'fluid_steps', 'particle_steps', 'peak_rss_bytes', 'particles', 'real_particles',
-  'mass_kg', 'timers_s', 'timer_groups', 'state_sha256', 'sensors', 'reason', 'size_classes', 'plugins', 'build', 'warnings', 'references', 'scenario_sha256', 'input_files', 'huge_page_bytes', 'series', 'series_roles']);
+  'mass_kg', 'timers_s', 'timer_groups', 'state_sha256', 'sensors', 'reason', 'size_classes', 'plugins', 'build', 'warnings', 'references', 'scenario_sha256', 'input_files', 'huge_page_bytes', 'series', 'series_roles',
+  'dust_rates', 'stream_indices']);
+
+// A number with what it is: 'diameter 30 mm' of `diameter_m`.
+Dust.named_text = ([key, value]) => {
+  const [, stem, unit] = /^(.+)_(m|s|kg)$/.exec(key) || [null, key, ''];
+  return `${Dust.words(stem)} ${typeof value === 'number' && unit ? Dust.quantity(value, -1, unit) : Dust.leaf_text(value) + (unit ? `\u202f${unit}` : '')}`;
+};
+Dust.leaf_text = (value) => (Array.isArray(value) ? value.map(Dust.leaf_text).join(value.some((part) => typeof part === 'string') ? '; ' : ', ') : value === true ? 'yes' : value === false ? 'no'
+  : Number.isInteger(value) ? Dust.count(value) : typeof value === 'number' ? Dust.number(value, 6) : String(value));
+// An entry of the summary as rows [name, text]: a figure with its error, a vector and a thing of a list are one row each; things of a list are numbered.
+Dust.summary_rows = (value, path) => {
+  if (value === null || value === undefined || (Array.isArray(value) && !value.length)) return [];
+  const is_thing = (part) => part !== null && typeof part === 'object' && !Array.isArray(part);
+  const row = (name, text) => [Dust.words(name), text];
+  if (Array.isArray(value)) {
+    if (!value.some(is_thing)) return [row(path, Dust.leaf_text(value))];
+    const is_flat = (part) => is_thing(part) && !Object.values(part).some(is_thing);
+    return value.flatMap((part, k) => (is_flat(part) ? [row(`${path} / ${k + 1}`, Object.entries(part).filter(([, v]) => v !== null).map(Dust.named_text).join(', '))]
+      : Dust.summary_rows(part, `${path} / ${k + 1}`)));
+  }
+  if (!is_thing(value)) return [row(path, Dust.leaf_text(value))];
+  if ('value' in value && 'unit' in value) return [row(path, Dust.amount(value))];
+  return Object.entries(value).flatMap(([key, part]) => Dust.summary_rows(part, path ? `${path} / ${key}` : key));
+};
+
+// Figures of `dust_rates` by way, place and class; the time that they are means over is said on the first screen.
+Dust.dust_rates_table = (rates) => {
+  const lines = new Map();
+  for (const [name, figure] of Object.entries(rates || {})) {
+    const [, what, of] = /^(.+)\/(rate|per_load)$/.exec(name) || [];
+    if (what) lines.set(what, {...lines.get(what), [of]: figure});
+  }
+  const said = (figure) => (figure && Dust.is_none(figure) ? 'none' : Dust.amount(figure, ''));
+  const rows = [...lines].map(([what, {rate, per_load}]) => [Dust.words(what.replace(/\//g, ' / ')), said(rate), said(per_load)]);
+  return Dust.table([{title: ''}, {title: 'Rate', number: true}, {title: 'Per tonne of load', number: true}], rows, {label: 'Rates of dust'});
+};
 
 Dust.sections.health = ({summary, limits, notes, crushed}) => {
   const {p} = Dust;
-  const leaves = (value, path) => {
-    if (Array.isArray(value)) return value.flatMap((part) => leaves(part, path));
-    if (value && typeof value === 'object') return Object.entries(value).flatMap(([key, part]) => leaves(part, path ? `${path} / ${key}` : key));
-    if (value === null || value === undefined) return [];
-    return [[Dust.words(path), value === true ? 'yes' : value === false ? 'no' : Number.isInteger(value) ? Dust.count(value) : typeof value === 'number' ? Dust.number(value, 6) : String(value)]];
-  };
-  const own = new Set(limits.map((l) => l.key));
-  const health = Object.entries(summary.health || {}).filter(([key]) => !own.has(key)).flatMap(([key, value]) => leaves(value, key));
-  const others = Object.entries(summary).filter(([key]) => key !== 'health' && !Dust.shown_elsewhere.has(key)).flatMap(([key, value]) => leaves(value, key));
+  const own = new Set(limits.map((l) => l.key)), leaves = ([key, value]) => Dust.summary_rows(value, key);
+  const health = Object.entries(summary.health || {}).filter(([key]) => !own.has(key)).flatMap(leaves);
+  const others = Object.entries(summary).filter(([key]) => key !== 'health' && !Dust.shown_elsewhere.has(key)).flatMap(leaves);
+  const indices = Object.entries(summary.stream_indices || {}).filter(([name]) => name !== 'observed').flatMap(([name, figure]) => leaves([name.replace(/\//g, ' / '), figure]));
+  const rates = Dust.dust_rates_table(summary.dust_rates), fold = (title, rows) => rows.length > 0 && Dust.details(title, '', Dust.facts(rows, title));
   const warnings = (summary.warnings || []).filter((w) => typeof w === 'string');
-  if (!health.length && !others.length && !notes.length && !limits.length && !warnings.length) return null;
+  if (!health.length && !others.length && !indices.length && !rates && !notes.length && !limits.length && !warnings.length) return null;
   const touched = limits.filter((l) => l.is_touched).length;
   const valid = (l) => (l.value === 0 ? 'none' : `${l.bound === 'at_most' ? 'at most' : 'at least'} ${Dust.number(l.value, 3)}`);
   const rows = limits.map((l) => {
@@ -45,7 +77,7 @@ Dust.sections.health = ({summary, limits, notes, crushed}) => {
     Dust.table([{title: 'Limit'}, {title: 'Reached', number: true}, {title: 'Valid', number: true}, {title: ''}], rows, {look: 'limits', label: 'Limits of validity'}),
     crushed ? Dust.crushed_text(crushed) : null,
     ...warnings.map((text) => p({class: 'caution'}, text)), ...notes.map((text) => p({class: 'note'}, text)),
-    health.length ? Dust.details('Counters of the run', '', Dust.facts(health, 'Counters')) : null, others.length ? Dust.details('Other entries of the summary', '', Dust.facts(others, 'Other entries')) : null);
+    fold('Counters of the run', health), rates && Dust.details('Rates of dust', '', rates), fold('Indices of the stream', indices), fold('Other entries of the summary', others));
 };
 
 // Why fine grains overlap beyond their radius, and what that does to the dust figures.

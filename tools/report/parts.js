@@ -49,7 +49,8 @@ Dust.error_bar = (share, error, look) => {
 };
 // A figure of summary.json or of the document: {value, uncertainty, unit}.
 // Why a figure has no error stands in its place.
-Dust.why_no_error = (figure) => (figure.no_error && figure.value !== 0 ? ` (${figure.no_error})` : '');
+Dust.lacks_error = (figure) => figure.no_error && figure.value !== 0;
+Dust.why_no_error = (figure) => (Dust.lacks_error(figure) ? ` (${figure.no_error})` : '');
 Dust.amount = (figure, none = Dust.dash) => (figure ? Dust.quantity(figure.value, figure.uncertainty, figure.unit) + Dust.why_no_error(figure) : none);
 
 // The top of a page: kind, scenario, status, the switch of the theme and the title.

@@ -5,8 +5,19 @@ Dust.plant_answer = (question, value, ...lines) => Dust.el('section', {class: 'a
   Dust.p({class: 'value'}, value), ...lines.flat().filter(Boolean));
 
 // A figure with its error, unless that is one of rounding; two digits where nobody knows how many are true.
-Dust.figure_text = ({value, uncertainty}, unit) => (!Number.isFinite(value) ? Dust.dash
+Dust.figure_alone = ({value, uncertainty}, unit) => (!Number.isFinite(value) ? Dust.dash
   : Number.isFinite(uncertainty) ? Dust.quantity(value, uncertainty > 1e-9 * Math.abs(value) ? uncertainty : -1, unit) : Dust.quantity(Number(value.toPrecision(2)), -1, unit));
+// Why it has no error stands beside it: '350 mg/t (not steady)', and within brackets '100 g/h; not steady'.
+Dust.figure_text = (figure, unit) => Dust.figure_alone(figure, unit) + Dust.why_no_error(figure);
+Dust.figure_within = (figure, unit) => Dust.figure_alone(figure, unit) + (Dust.lacks_error(figure) ? `; ${figure.no_error}` : '');
+
+// Less than a nanogram per m3, hour or tonne is none: below what any instrument reads, and what spreads through the cells of a field by rounding.
+Dust.nanogram = {'kg/m3': 1e-12, 'g/m3': 1e-9, 'mg/m3': 1e-6, 'kg/s': 1e-12 / 3600, 'kg/h': 1e-12, 'g/h': 1e-9, 'g/t': 1e-9};
+Dust.is_none = ({value, uncertainty, unit}) => Math.abs(value) + (uncertainty || 0) < (Dust.nanogram[unit] || 0);
+Dust.none_text = (figures) => {
+  const [{unit}] = figures.filter(Dust.is_none), per = unit === 'kg/s' ? 'h' : Dust.raise(unit.split('/')[1]);
+  return `${per === 'm³' && figures.every(Dust.is_none) ? 'No dust there yet: l' : 'L'}ess than a nanogram per ${per} is none.`;
+};
 
 // Sums over the classes of dust: {fed, free, causes, sides, hoods, carriers, airborne, settled, ...} in kg, lists of {name, kg}, or null.
 // Without loads `free` is what sources and clouds of the field give.
@@ -99,14 +110,14 @@ Dust.fall_estimates = ({dust_estimates}) => {
 
 // The three indices by which practice ranks transfer points: null where there is none of them.
 Dust.indices_answer = ({summary}) => {
-  const figures = summary.stream_indices || {}, said = (name) => Dust.figure_text(figures[name], figures[name].unit);
+  const figures = summary.stream_indices || {}, said = (name) => Dust.figure_text(figures[name], figures[name].unit), within = (name) => Dust.figure_within(figures[name], figures[name].unit);
   const impact = ['impact/all/per_load', 'impact/all/power'].find((name) => figures[name] && figures[name].value > 0), air = figures['entrained_air/flow'], loose = figures['looseness/void_fraction'];
   if (!impact && !air && !loose) return null;
   const causes = Object.entries(figures).filter(([name]) => /^impact\/.*\/power$/.test(name) && name !== 'impact/all/power').sort(([, a], [, b]) => b.value - a.value)
     .map(([name]) => `${name.split('/')[1] === 'grains' ? 'grains on grains' : Dust.words(name.split('/')[1])} ${said(name)}`);
   return Dust.plant_answer('By the indices of practice?', impact ? said(impact) : air ? said('entrained_air/flow') : Dust.percent(loose.value),
     impact && Dust.p({}, `Impacts dissipate it: ${causes.slice(0, 3).join(', ')}`),
-    air && Dust.p({}, `Entrained air: the stream takes ${said('entrained_air/flow')} down with it${Number.isFinite((figures['entrained_air/per_load'] || {}).value) ? ` (${said('entrained_air/per_load')})` : ''}`),
+    air && Dust.p({}, `Entrained air: the stream takes ${said('entrained_air/flow')} down with it${Number.isFinite((figures['entrained_air/per_load'] || {}).value) ? ` (${within('entrained_air/per_load')})` : ''}`),
     loose && Dust.p({}, `Looseness: ${Dust.percent(loose.value)} of the stream is air where it is loosest, ${Dust.percent(figures['looseness/densest_void_fraction'].value)} where it is densest`));
 };
 
@@ -114,14 +125,14 @@ Dust.load_dust_answers = (data) => {
   const dust = Dust.load_dust(data), stream = Dust.dust_stream(data), {summary} = data, {el, p} = Dust;
   if (!dust) return [];
   const {free} = stream, fed = (summary.mass_kg || {}).emitted > 0 ? Dust.quantity(1e6 * dust.fed / summary.mass_kg.emitted, -1, 'g/t') : Dust.dash;
-  const said = Dust.figure_text, is_told = ({value}) => Number.isFinite(value);
+  const said = Dust.figure_text, within = Dust.figure_within, is_told = ({value}) => Number.isFinite(value);
   const share = ({rate}) => (free.rate.value > 0 ? rate.value / free.rate.value : 0), percent = (part) => (free.rate.value > 0 ? Dust.percent(share(part)) : Dust.dash);
   const ranks = (list) => el('ul', {class: 'ranks'}, ...list.map((part) => el('li', {}, el('span', {}, part.title || Dust.words(part.name)), el('span', {}, percent(part)),
     Dust.bar(Math.max(share(part), 0), 'dustbar'))));
   const answer = Dust.plant_answer, counts = (part) => part.rate.value > 1e-4 * free.rate.value;
   const causes = stream.causes.filter((c) => c.rate.value > 0).map((c) => ({...c, title: c.name === 'grains' ? 'grains on grains' : Dust.words(c.name)}));
   const over_all = stream.observed > 0 && free.load.is_whole ? 'of all that was released, set free over the whole run' : '';
-  const gets_out = counts(stream.out) && p({}, is_told(stream.out.load) ? `${said(stream.out.load, 'g/t')} get out with the air (${said(stream.out.rate, 'kg/h')})` : `${said(stream.out.rate, 'kg/h')} get out with the air`);
+  const gets_out = counts(stream.out) && p({}, is_told(stream.out.load) ? `${said(stream.out.load, 'g/t')} get out with the air (${within(stream.out.rate, 'kg/h')})` : `${said(stream.out.rate, 'kg/h')} get out with the air`);
   const of_load = () => answer('How much dust?', !(free.rate.value > 0) ? 'none' : is_told(free.load) ? said(free.load, 'g/t') : said(free.rate, 'kg/h'), over_all && is_told(free.load) && p({}, over_all),
     p({}, `${said(free.rate, 'kg/h')} set free from the load, which carries ${fed}`), gets_out, Dust.drop_estimate(summary), Dust.fall_estimates(summary));
   const of_field = () => answer(data.dust ? 'How much dust in the air?' : 'How much dust?', free.rate.value > 0 ? said(free.rate, 'kg/h') : 'none',
@@ -133,10 +144,11 @@ Dust.load_dust_answers = (data) => {
     ...stream.sides.map((s) => ({...s, title: `out at ${Dust.words(s.name)}`})), ...stream.carriers.map((c) => ({...c, title: `out lying on ${Dust.words(c.name)}`}))].filter(counts);
   // What has left the air's domain tells of the extraction only once it is steady; the page says both.
   const left = stream.out.rate.value + stream.drawn.rate.value, catches = left > 1e-2 * free.rate.value ? stream.drawn.rate.value / left : null;
+  const unsure = [stream.drawn.rate, stream.out.rate].find((rate) => Dust.lacks_error(rate) && rate.value > 0.01 * left);
   const tried = data.extraction ? data.extraction.places.slice(0, 3) : [], hoods = dust.hoods;
-  const where = hoods.length > 0 && answer('Where to extract?', catches === null ? 'too early to tell' : `${Dust.percent(catches)} caught`,
+  const where = hoods.length > 0 && answer('Where to extract?', catches === null ? 'too early to tell' : `${Dust.percent(catches)} caught${unsure ? Dust.why_no_error(unsure) : ''}`,
     p({}, catches === null ? 'Hardly any dust has left with the air yet.' : `of the dust that left with the air; ${hoods.map((h) => Dust.hood_text(data, h.name)).join(', ')} ${hoods.length > 1 ? 'extract' : 'extracts'}`),
-    stream.sides.length > 0 && counts(stream.sides[0]) && p({}, `Most gets out at ${Dust.words(stream.sides[0].name)} (${said(stream.sides[0].rate, 'kg/h')})`),
+    stream.sides.length > 0 && counts(stream.sides[0]) && p({}, `Most gets out at ${Dust.words(stream.sides[0].name)} (${within(stream.sides[0].rate, 'kg/h')})`),
     tried.length > 0 && [p({}, el('a', {href: '#extraction'}, 'Low pressure'), ', to be tried:'),
       el('ul', {class: 'ranks'}, ...tried.map((o) => el('li', {}, el('span', {}, Dust.place_xyz(o)), el('span', {}, Dust.depth(o)))))]);
   const goes = fates.length ? Dust.sentence(fates.reduce((a, b) => (b.rate.value > a.rate.value ? b : a)).title) : Dust.dash;
@@ -171,11 +183,12 @@ Dust.overview_answers = ({summary, setting}) => {
       silent.push(Dust.words(sensor));
       continue;
     }
-    const text = (f) => Dust.quantity(f.value, f.uncertainty, f.unit), [[first_name, first], ...others] = shown;
+    const text = (f) => (Dust.is_none(f) ? 'none' : Dust.amount(f)), [[first_name, first], ...others] = shown;
     const name = (n, f) => Dust.words(n.replace(/\/value$/, '').replace(/_/g, ' ')) + (f.quantity === 'time' && !/time/.test(n) ? ' time' : '');
     const what = (known.find((s) => s.name === sensor) || {}).what;
     answers.push(Dust.plant_answer(what ? Dust.el('span', {title: what}, Dust.sentence(sensor)) : Dust.sentence(sensor), text(first), Dust.p({}, name(first_name, first)),
-      others.length ? Dust.el('ul', {class: 'ranks'}, ...others.map(([n, f]) => Dust.el('li', {}, Dust.el('span', {}, name(n, f)), Dust.el('span', {}, text(f))))) : null));
+      others.length ? Dust.el('ul', {class: 'ranks'}, ...others.map(([n, f]) => Dust.el('li', {}, Dust.el('span', {}, name(n, f)), Dust.el('span', {}, text(f))))) : null,
+      shown.some(([, f]) => Dust.is_none(f)) ? Dust.p({class: 'note'}, Dust.none_text(shown.map(([, f]) => f))) : null));
   }
   if (silent.length) answers.push(Dust.plant_answer('Nothing counted', Dust.plural(silent.length, 'sensor'), Dust.p({}, silent.join(', ') + ': nothing came by, or their start-up had not passed.')));
   return answers;

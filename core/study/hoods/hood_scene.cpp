@@ -114,15 +114,17 @@ std::vector<LowPressurePlace> places_of(const report::RunText& run) {
   return places;
 }
 
-bool has_dust(const report::RunText& run) {
-  if (!report::object_at(report::object_at(run.summary, "dust_field"), "classes").empty()) {
-    return true;
-  }
+bool has_dust_grains(const report::RunText& run) {
   const nlohmann::json& classes = report::list_at(run.summary, "size_classes");
   return std::any_of(classes.begin(), classes.end(), [&](const nlohmann::json& entry) {
     const auto diameter = report::number_at(entry, "diameter_m");
     return diameter && run.dust.is_dust(*diameter);
   });
+}
+
+bool has_dust(const report::RunText& run) {
+  return has_dust_grains(run) ||
+         !report::object_at(report::object_at(run.summary, "dust_field"), "classes").empty();
 }
 
 HoodScene::HoodScene(const std::filesystem::path& folder, const report::RunText& run) {

@@ -23,6 +23,8 @@ struct LowPressurePlace {
 /// deepest first, of several sensors all of them.
 [[nodiscard]] std::vector<LowPressurePlace> places_of(const report::RunText& run);
 
+/// Whether grains of a run are dust.
+[[nodiscard]] bool has_dust_grains(const report::RunText& run);
 /// Whether grains or concentrations of a run are dust.
 [[nodiscard]] bool has_dust(const report::RunText& run);
 

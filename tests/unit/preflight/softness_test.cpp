@@ -110,6 +110,55 @@ TEST_CASE("the overlap of a linear spring shall be that of its own collision tim
   CHECK(text.find("make interactions[1].contact at least 76 times as stiff") != std::string::npos);
 }
 
+TEST_CASE("where no speed is given impacts shall be those at the end of the largest fall") {
+  const scenario::Override none = {"time.expected_speed", "0"};
+  // The feed comes in with 1 m/s, all of a grain above 150 mm.
+  const double speed = std::sqrt(1.0 + 2.0 * 9.81 * 0.152);
+  const auto fallen = impact({none});
+  CHECK(fallen.is_of_fall);
+  CHECK(fallen.fall.height == test::approx(0.152).epsilon(1e-9));
+  CHECK(fallen.speed == test::approx(speed).epsilon(1e-9));
+  CHECK(fallen.ratio == test::approx(impact({}).ratio * std::pow(0.5 * speed, 0.8)).epsilon(1e-4));
+  // Four times as slow: 4^(4/5).
+  CHECK(fallen.ratio_in_stream ==
+        test::approx(impact({}).ratio * std::pow(0.25, 0.8)).epsilon(1e-4));
+  CHECK(preflight::impact_speed_text(fallen) == "2 m/s, after a fall of 152 mm");
+  // Steps are those of before.
+  CHECK(preflight::derive(read_box({none}).setup, shipped_models()).steps.expected_speed == 0.5);
+  // A given speed holds, and the fall is known.
+  const auto given = impact({{"time.expected_speed", "0.8"}});
+  CHECK(given.speed == 0.8);
+  CHECK_FALSE(given.is_of_fall);
+  CHECK(given.fall.speed == test::approx(speed).epsilon(1e-9));
+  CHECK(preflight::impact_speed_text(given) == "0.8 m/s");
+  // Nothing below that they could meet; then a plate.
+  const scenario::Override open = {"domain.boundaries.bottom", "{grains: open}"};
+  CHECK(impact({none, open}).fall.height == 0.0);
+  CHECK(impact({none, open}).speed == 0.5);
+  // The upper side of a plate, not its lower one.
+  const scenario::Override plate = {
+      "bodies.plate", "{shape: box, material: steel, min: [0, 0, 50 mm], max: [99, 49, 60 mm]}"};
+  CHECK(impact({none, open, plate}).fall.height == test::approx(0.092).epsilon(1e-9));
+  // Without weight nothing falls.
+  CHECK(impact({none, {"gravity", "[0, 0, 0]"}}).speed == 0.5);
+}
+
+TEST_CASE("the modulus that is advised for the end of a fall shall make its impact small") {
+  const scenario::Override none = {"time.expected_speed", "0"};
+  const scenario::Override soft = {"materials.sand.young_modulus", "100 kPa"};
+  const std::string text = warning({none, soft});
+  INFO(text);
+  CHECK(text.find("in an impact at 2 m/s, after a fall of 152 mm (sand on sand)") !=
+        std::string::npos);
+  CHECK(text.find("or say by time.expected_speed how fast they meet") != std::string::npos);
+  const std::string words = "young_modulus at least ";
+  const std::size_t at = text.find(words);
+  REQUIRE(at != std::string::npos);
+  const std::string wanted = text.substr(at + words.size(), text.find(',', at) - at - words.size());
+  const double after = impact({none, {"materials.sand.young_modulus", wanted}}).ratio;
+  CHECK(after <= preflight::k_soft_overlap * (1.0 + k_duration));
+}
+
 TEST_CASE("a missing MPa shall be warned of with the modulus to write") {
   CHECK(warning({}) == "");
   const std::string text = warning({{"materials.sand.young_modulus", "5"}});

@@ -259,13 +259,18 @@ void print_impact(std::ostream& out, const Setup& setup, const Derived& derived)
   const preflight::ImpactOverlap& impact = derived.impact;
   if (!(impact.ratio > 0.0)) return;
   const auto& pair = setup.interactions[impact.interaction];
-  out << "             largest overlap of an impact at " << digits(impact.speed)
-      << " m/s: " << digits(100.0 * impact.ratio) << " % of the radius ("
+  out << "             largest overlap of an impact at " << preflight::impact_speed_text(impact)
+      << ": " << digits(100.0 * impact.ratio) << " % of the radius ("
       << material_name(setup, pair.material_i) << " on " << material_name(setup, pair.material_j)
       << ")";
   if (impact.ratio > preflight::k_soft_overlap) {
     out << ";\n             soft: for " << digits(100.0 * preflight::k_soft_overlap) << " % "
         << stiffness_advice(setup, impact);
+  }
+  // A given speed holds; that something has to break the fall is not seen from it.
+  if (!impact.is_of_fall && impact.fall.speed > 1.05 * impact.speed) {
+    out << ";\n             time.expected_speed is below the " << digits(impact.fall.speed)
+        << " m/s of a free fall of " << base::length_text(impact.fall.height, 3);
   }
   out << '\n';
 }
