@@ -6,7 +6,7 @@
 #include "preflight/emissions.hpp"
 #include "preflight/run_cost.hpp"
 #include "preflight/slope_drain.hpp"
-#include "preflight/softness.hpp"
+#include "preflight/stiffness/softness.hpp"
 #include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/dust_setup.hpp"

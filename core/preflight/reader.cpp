@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/reader.hpp"
 
-#include "preflight/cohesion_check.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/dust_check.hpp"
 #include "preflight/emissions.hpp"
@@ -15,7 +14,8 @@
 #include "preflight/places/sensor_look.hpp"
 #include "preflight/places/sensor_places.hpp"
 #include "preflight/places/suction_cover.hpp"
-#include "preflight/softness.hpp"
+#include "preflight/stiffness/cohesion_check.hpp"
+#include "preflight/stiffness/softness.hpp"
 #include "scenario/diagnostics.hpp"
 
 #include <stdexcept>

@@ -102,6 +102,8 @@ Column column_of(const Axis& axis, std::size_t axis_number, std::size_t setting,
   return column;
 }
 
+}  // namespace
+
 /// When the runs of points begin.
 class Begins {
  public:
@@ -135,8 +137,6 @@ class Begins {
 struct Kept {
   PointProblems errors, warnings;
 };
-
-}  // namespace
 
 struct Planner::Impl {
   const Spec& spec;

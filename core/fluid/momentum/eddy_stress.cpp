@@ -25,7 +25,6 @@ EddyStress::EddyStress(const Grid& grid, const Geometry& geometry, const Sides& 
       sides_(sides),
       properties_(properties),
       model_(model),
-      body_distance_(grid.size, std::numeric_limits<double>::infinity()),
       distance_(grid.size, std::numeric_limits<double>::infinity()),
       density_(grid.size, properties.density()),
       molecular_(grid.size, properties.viscosity()),
@@ -51,6 +50,7 @@ EddyStress::EddyStress(const Grid& grid, const Geometry& geometry, const Sides& 
       }
     });
   }
+  walls_.body_distance.assign(grid.size, std::numeric_limits<double>::infinity());
   find_distances(bodies, 0.0);
   find_edges();
 }
@@ -145,7 +145,7 @@ void EddyStress::find_distances(const bodies::BodySet& bodies, double time) {
           least = std::min(least, std::max(0.0, body.nearest(centre, at).distance));
         }
       }
-      body_distance_[grid_.index(i, j, k)] = least;
+      walls_.body_distance[grid_.index(i, j, k)] = least;
     }
   });
   add_sides();
@@ -156,7 +156,7 @@ void EddyStress::add_sides() {
     for (int i = 0; i < grid_.count[0]; ++i) {
       const sdk::Vec3 centre = grid_.centre(i, j, k);
       const std::ptrdiff_t o = grid_.index(i, j, k);
-      double least = body_distance_[o];
+      double least = walls_.body_distance[o];
       for (int side = 0; side < 6; ++side) {
         if (!walls_.is_side[side]) continue;
         const int d = side / 2;

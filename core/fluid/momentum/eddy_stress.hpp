@@ -47,6 +47,7 @@ class EddyStress {
   /// Where eddies end.
   struct Walls {
     std::array<bool, 6> is_side{};
+    CellField body_distance;  ///< [m] to the nearest body
     /// Of edges, by the direction along them, at the cell whose lower edge they are: 0 at walls,
     /// else 1.
     std::array<std::vector<double>, 3> edge;
@@ -71,8 +72,7 @@ class EddyStress {
   const sdk::TurbulenceModel& model_;
   double filter_width_ = 0.0;
   Walls walls_;
-  CellField body_distance_;  ///< [m] to the nearest body
-  CellField distance_;       ///< [m] to the nearest body or wall among the sides
+  CellField distance_;  ///< [m] to the nearest body or wall among the sides
   CellField density_;
   CellField molecular_;
   CellField rate_;  ///< [1/s]

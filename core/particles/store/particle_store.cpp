@@ -39,15 +39,15 @@ GrainRows ParticleStore::rows() {
           .id = id_.data(),
           .material = material_.data(),
           .weight = weight_.data(),
-          .drag_relaxation = drag_.data(),
-          .fluid_impulse = impulse_.data(),
+          .drag_relaxation = of_fluid_.drag.data(),
+          .fluid_impulse = of_fluid_.impulse.data(),
           .motion_stride = k_motion_stride,
-          .wind = keeps_wind_ ? wind_.data() : nullptr};
+          .wind = of_fluid_.keeps_wind ? of_fluid_.wind.data() : nullptr};
 }
 
 ParticleStore::Motion ParticleStore::motion() {
-  return {position_.data(), motion_.data(), spin_.data(),    impulse_.data(),
-          drag_.data(),     decay_.data(),  material_.data()};
+  return {position_.data(),      motion_.data(),         spin_.data(),    of_fluid_.impulse.data(),
+          of_fluid_.drag.data(), of_fluid_.decay.data(), material_.data()};
 }
 
 void ParticleStore::append(const NewGrain& g, double mass, std::int32_t population) {
@@ -60,11 +60,11 @@ void ParticleStore::append(const NewGrain& g, double mass, std::int32_t populati
   motion_.insert(motion_.end(), {v.x, v.y, v.z, 1.0 / mass, v.x, v.y, v.z, 0.0});
   spin_.insert(spin_.end(), {w.x, w.y, w.z, radius, w.x, w.y, w.z, radius});
   if (has_fluid_) {
-    drag_.insert(drag_.end(), 4, 0.0);
-    impulse_.insert(impulse_.end(), 4, 0.0);
-    decay_.insert(decay_.end(), 2, 1.0);
+    of_fluid_.drag.insert(of_fluid_.drag.end(), 4, 0.0);
+    of_fluid_.impulse.insert(of_fluid_.impulse.end(), 4, 0.0);
+    of_fluid_.decay.insert(of_fluid_.decay.end(), 2, 1.0);
   }
-  if (keeps_wind_) wind_.insert(wind_.end(), 4, 0.0);
+  if (of_fluid_.keeps_wind) of_fluid_.wind.insert(of_fluid_.wind.end(), 4, 0.0);
   id_.push_back(next_id_++);
   material_.push_back(g.material);
   population_.push_back(population);
@@ -91,15 +91,15 @@ void ParticleStore::transfer_from(const ParticleStore& other,
     velocity(n)[3] = 1.0 / mass[static_cast<std::size_t>(population_[n])];
   }
   if (has_fluid_ && other.has_fluid_) {
-    drag_ = other.drag_;
-    impulse_ = other.impulse_;
-    decay_ = other.decay_;
+    of_fluid_.drag = other.of_fluid_.drag;
+    of_fluid_.impulse = other.of_fluid_.impulse;
+    of_fluid_.decay = other.of_fluid_.decay;
   } else if (has_fluid_) {
-    drag_.assign(4 * size(), 0.0);
-    impulse_.assign(4 * size(), 0.0);
-    decay_.assign(2 * size(), 1.0);
+    of_fluid_.drag.assign(4 * size(), 0.0);
+    of_fluid_.impulse.assign(4 * size(), 0.0);
+    of_fluid_.decay.assign(2 * size(), 1.0);
   }
-  if (keeps_wind_) keep_wind();
+  if (of_fluid_.keeps_wind) keep_wind();
   set_openings(has_openings_);
   for (std::size_t n = 0; n < touched_.size() && n < other.touched_.size(); ++n) {
     if (other.touched_[n] >= 0) touched_[n] = openings[static_cast<std::size_t>(other.touched_[n])];
@@ -110,11 +110,11 @@ void ParticleStore::reorder(std::span<const std::int32_t> order) {
   reorder_rows(position_, order, 4);
   for (auto* rows : {&motion_, &spin_}) reorder_rows(*rows, order, k_motion_stride);
   if (has_fluid_) {
-    reorder_rows(drag_, order, 4);
-    reorder_rows(impulse_, order, 4);
-    reorder_rows(decay_, order, 2);
+    reorder_rows(of_fluid_.drag, order, 4);
+    reorder_rows(of_fluid_.impulse, order, 4);
+    reorder_rows(of_fluid_.decay, order, 2);
   }
-  if (keeps_wind_) reorder_rows(wind_, order, 4);
+  if (of_fluid_.keeps_wind) reorder_rows(of_fluid_.wind, order, 4);
   reorder_rows(id_, order, 1);
   reorder_rows(material_, order, 1);
   reorder_rows(population_, order, 1);
@@ -123,8 +123,8 @@ void ParticleStore::reorder(std::span<const std::int32_t> order) {
 }
 
 void ParticleStore::keep_wind() {
-  keeps_wind_ = true;
-  wind_.assign(4 * size(), 0.0);
+  of_fluid_.keeps_wind = true;
+  of_fluid_.wind.assign(4 * size(), 0.0);
 }
 
 void ParticleStore::set_openings(bool has_openings) {
@@ -141,11 +141,11 @@ void ParticleStore::update_decay(double step) {
       Rows(0, size(), k_block), false,
       [&](const Rows& rows, bool has_drag) {
         for (std::size_t n = rows.begin(); n < rows.end(); ++n) {
-          const double rate = drag_[4 * n + 3];
+          const double rate = of_fluid_.drag[4 * n + 3];
           has_drag = has_drag || rate * step > 0.0;
           const leapfrog::Relaxation relaxation = leapfrog::relaxation(rate, step);
-          decay_[2 * n] = relaxation.decay;
-          decay_[2 * n + 1] = relaxation.mean;
+          of_fluid_.decay[2 * n] = relaxation.decay;
+          of_fluid_.decay[2 * n + 1] = relaxation.mean;
         }
         return has_drag;
       },
@@ -166,18 +166,20 @@ std::uint64_t ParticleStore::motion_digest() const {
   return base::Digest().add(motion_).add(spin_).value();
 }
 std::uint64_t ParticleStore::drag_digest() const {
-  return base::Digest().add(drag_).add(decay_).value();
+  return base::Digest().add(of_fluid_.drag).add(of_fluid_.decay).value();
 }
-std::uint64_t ParticleStore::impulse_digest() const { return base::Digest().add(impulse_).value(); }
+std::uint64_t ParticleStore::impulse_digest() const {
+  return base::Digest().add(of_fluid_.impulse).value();
+}
 
 void ParticleStore::save(sdk::ArchiveWriter& archive) const {
   save_rows(archive, "position", position_);
   save_rows(archive, "motion", motion_);
   save_rows(archive, "spin", spin_);
   if (has_fluid_) {
-    save_rows(archive, "action", drag_);
-    save_rows(archive, "impulse", impulse_);
-    save_rows(archive, "decay", decay_);
+    save_rows(archive, "action", of_fluid_.drag);
+    save_rows(archive, "impulse", of_fluid_.impulse);
+    save_rows(archive, "decay", of_fluid_.decay);
   }
   archive.integers("id", id_);
   archive.integers("material", widened(material_));
@@ -193,9 +195,9 @@ void ParticleStore::load(sdk::ArchiveReader& archive, std::int64_t next_id, bool
   load_rows(archive, "motion", motion_);
   load_rows(archive, "spin", spin_);
   if (has_fluid_) {
-    load_rows(archive, "action", drag_);
-    load_rows(archive, "impulse", impulse_);
-    load_rows(archive, "decay", decay_);
+    load_rows(archive, "action", of_fluid_.drag);
+    load_rows(archive, "impulse", of_fluid_.impulse);
+    load_rows(archive, "decay", of_fluid_.decay);
   }
   id_ = archive.integers("id");
   const auto material = archive.integers("material");
@@ -203,7 +205,7 @@ void ParticleStore::load(sdk::ArchiveReader& archive, std::int64_t next_id, bool
   material_.assign(material.begin(), material.end());
   population_.assign(population.begin(), population.end());
   weight_ = archive.numbers("weight");
-  if (keeps_wind_) keep_wind();
+  if (of_fluid_.keeps_wind) keep_wind();
   if (has_openings_) {
     const auto touched = archive.integers("touched_opening");
     touched_.assign(touched.begin(), touched.end());

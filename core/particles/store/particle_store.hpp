@@ -64,13 +64,17 @@ class ParticleStore {
   /// Drag relaxation: target velocity and rate [1/s]; zeros without a fluid.
   [[nodiscard]] const double* drag(std::size_t row) const {
     static constexpr double k_none[4] = {};
-    return has_fluid_ ? drag_.data() + 4 * row : k_none;
+    return has_fluid_ ? of_fluid_.drag.data() + 4 * row : k_none;
   }
   /// What drag leaves of a velocity difference in a step: exp(-k dt); 1 without a fluid.
-  [[nodiscard]] double decay(std::size_t row) const { return has_fluid_ ? decay_[2 * row] : 1.0; }
+  [[nodiscard]] double decay(std::size_t row) const {
+    return has_fluid_ ? of_fluid_.decay[2 * row] : 1.0;
+  }
   /// [N s] received through drag. With a fluid only.
-  [[nodiscard]] double* impulse(std::size_t row) { return impulse_.data() + 4 * row; }
-  [[nodiscard]] const double* impulse(std::size_t row) const { return impulse_.data() + 4 * row; }
+  [[nodiscard]] double* impulse(std::size_t row) { return of_fluid_.impulse.data() + 4 * row; }
+  [[nodiscard]] const double* impulse(std::size_t row) const {
+    return of_fluid_.impulse.data() + 4 * row;
+  }
 
   /// Number of the opening that it has touched, -1 = none.
   [[nodiscard]] int touched_opening(std::size_t row) const {
@@ -129,16 +133,17 @@ class ParticleStore {
  private:
   bool has_fluid_;
   bool has_drag_ = false;
-  bool keeps_wind_ = false;
   bool has_openings_ = false;
   std::int64_t next_id_ = 0;
   contact::AlignedVector<double> position_;
   contact::AlignedVector<double> motion_;
   contact::AlignedVector<double> spin_;
-  contact::AlignedVector<double> drag_;  ///< empty without a fluid, as the next two
-  contact::AlignedVector<double> impulse_;
-  contact::AlignedVector<double> decay_;
-  contact::AlignedVector<double> wind_;  ///< empty unless kept
+  /// What a fluid does to particles; empty without one.
+  struct OfFluid {
+    contact::AlignedVector<double> drag, impulse, decay;
+    contact::AlignedVector<double> wind;  ///< empty unless kept
+    bool keeps_wind = false;
+  } of_fluid_;
   std::vector<std::int64_t> id_;
   std::vector<std::int32_t> material_;
   std::vector<std::int32_t> population_;  ///< index into the balance ledger

@@ -66,10 +66,10 @@ class SphereGrid {
 };
 
 /// Takes out of `waiting` those grains that touch neither a grain in the domain, nor one taken
-/// before them, nor a body that moves, in their order. The others stay and are tried again at the next fluid step, where
-/// their emitter lets them wait: an overlap at entry would be an explosion, and moving either grain
-/// aside would be made up. A grain that may not wait must lie in the domain, clear of bodies and
-/// walls, too; throws ModelError that names both sides.
+/// before them, nor a body that moves, in their order. The others stay and are tried again at the
+/// next fluid step, where their emitter lets them wait: an overlap at entry would be an explosion,
+/// and moving either grain aside would be made up. A grain that may not wait must lie in the
+/// domain, clear of bodies and walls, too; throws ModelError that names both sides.
 std::vector<InsertionCandidate> take_without_overlap(std::vector<InsertionCandidate>& waiting,
                                                      const particles::GrainRows& rows,
                                                      const EntryScene& scene);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far grains overlap in an impact, and what a scenario with a missing MPa is told.
-#include "preflight/softness.hpp"
+#include "preflight/stiffness/softness.hpp"
 
 #include "preflight/derived.hpp"
 #include "support/approx.hpp"

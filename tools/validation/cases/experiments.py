@@ -294,13 +294,14 @@ EXPERIMENTS = (
     Experiment("The container of 24 widths between walls, too flat", "rolling friction?",
                (("as it fails", rectangular_container.plan_of("walls", 24)),
                 ("rolling friction 0.5 in place of 0.3", steeper(rectangular_container.plan_of("walls", 24)))), figure("slope", "angle"), "deg"),
-    Experiment("The pile from a funnel, too flat", "how far the sand falls on its tip, how fast it comes, or its friction? (2.5 g in place of 10)", (
-        ("outlet stops 5 mm over a tip of 39 deg, as it fails", poured_pile("small")),
-        ("2 mm over it", poured_pile("small_near", (3.5, 1.5))),
-        ("10 mm over it", poured_pile("small_far", (11, 2))),
-        ("outlet of 4 mm in place of 6", poured_pile("small_outlet_4", pace=0.31, settings={"bodies.funnel.radius": "2 mm"})),
-        ("rolling friction 0.5 in place of 0.3", poured_pile("small_rolling", settings={f"{SAND}.rolling.friction": "0.5"})),
-        ("restitution 0.5 in place of 0.9", poured_pile("small_restitution", settings={f"{SAND}.contact.restitution": "0.5"}))),
+    Experiment("The pile from a funnel, too flat", "how much sand it is, how far that falls on the tip, how fast it comes, or how it rolls and bounces?", (
+        ("10 g, as it fails", Plan("pile_funnel", "thesis/pile_funnel.yaml", SOFT)),
+        ("2.5 g, outlet 5 mm over a tip of 39 deg at the end", poured_pile("small")),
+        ("2.5 g, outlet 2 mm over it", poured_pile("small_near", (3.5, 1.5))),
+        ("2.5 g, outlet 10 mm over it", poured_pile("small_far", (11, 2))),
+        ("2.5 g, outlet of 4 mm in place of 6", poured_pile("small_outlet_4", pace=0.31, settings={"bodies.funnel.radius": "2 mm"})),
+        ("2.5 g, rolling friction 0.5 in place of 0.3", poured_pile("small_rolling", settings={f"{SAND}.rolling.friction": "0.5"})),
+        ("2.5 g, restitution 0.5 in place of 0.9", poured_pile("small_restitution", settings={f"{SAND}.contact.restitution": "0.5"}))),
         figure("pile", "angle"), "deg"),
     Experiment("B2 to B4, too fast", "added mass and memory of the liquid, or its walls?",
                variants("settling_b3_with", "thesis/settling_b3.yaml", {}, (

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preflight/softness.hpp"
+#include "preflight/stiffness/softness.hpp"
 
 #include "base/text.hpp"
 #include "dust/sdk/sphere.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preflight/cohesion_check.hpp"
+#include "preflight/stiffness/cohesion_check.hpp"
 
 #include "base/text.hpp"
-#include "preflight/softness.hpp"
+#include "preflight/stiffness/softness.hpp"
 
 #include <algorithm>
 #include <cmath>
