@@ -254,7 +254,8 @@ std::vector<ContactRecord> Dem::contacts(double time) const {
   impl_->synchronise();
   // Since grains came or went, the lists name other rows; they are made new at the next step.
   if (impl_->outer.is_reorder_due()) return {};
-  const auto surfaces = surfaces_at(time, impl_->conditions.surfaces);
+  std::vector<Surface> moved;
+  const auto surfaces = surfaces_at(time, impl_->conditions.surfaces, moved);
   return contact_snapshot(impl_->contact_scene_at(time, surfaces), impl_->inner);
 }
 
@@ -323,7 +324,8 @@ sdk::WallColumns Dem::close_wall_loads(double interval, double time) {
   if (!impl_->wall_loads.is_on()) return {};
   impl_->gather_wall_loads();
   impl_->wall_loads.close(interval);
-  const auto surfaces = surfaces_at(time, impl_->conditions.surfaces);
+  std::vector<Surface> moved;
+  const auto surfaces = surfaces_at(time, impl_->conditions.surfaces, moved);
   impl_->wall_loads.note_contacts(impl_->contact_scene_at(time, surfaces), impl_->inner);
   return impl_->wall_loads.columns();
 }

@@ -30,8 +30,11 @@ void move_to(double time, std::span<Surface> surfaces) {
   }
 }
 
-std::vector<Surface> surfaces_at(double time, std::span<const Surface> surfaces) {
-  std::vector<Surface> moved(surfaces.begin(), surfaces.end());
+std::span<const Surface> surfaces_at(double time, std::span<const Surface> surfaces,
+                                     std::vector<Surface>& moved) {
+  const auto is_displaced = [](const Surface& s) { return s.is_displaced(); };
+  if (std::none_of(surfaces.begin(), surfaces.end(), is_displaced)) return surfaces;
+  moved.assign(surfaces.begin(), surfaces.end());
   move_to(time, moved);
   return moved;
 }

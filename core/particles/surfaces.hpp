@@ -90,8 +90,9 @@ struct Surface {
 /// Puts bodies that move to their place at `time` [s].
 void move_to(double time, std::span<Surface> surfaces);
 
-/// Copies that stand where they do at `time` [s].
-std::vector<Surface> surfaces_at(double time, std::span<const Surface> surfaces);
+/// The surfaces where they stand at `time` [s]: where some move, copies in `moved`.
+std::span<const Surface> surfaces_at(double time, std::span<const Surface> surfaces,
+                                     std::vector<Surface>& moved);
 
 /// A surface and what of it is nearest to a point.
 struct NearestSurface {

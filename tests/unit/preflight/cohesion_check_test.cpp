@@ -2,7 +2,7 @@
 // Grains that are too soft for what holds them together, and bridges too large for them.
 #include "base/error.hpp"
 #include "support/approx.hpp"
-#include "unit/scenario/support.hpp"
+#include "unit/preflight/said.hpp"
 
 #include <doctest/doctest.h>
 
@@ -51,28 +51,13 @@ emitters:
 fluid: none
 )";
 
-struct PowderSaid {
-  std::vector<std::string> errors, warnings;
-};
-
-PowderSaid powder_said(const std::vector<scenario::Override>& set) {
-  static const registry::Registry& models = []() -> const registry::Registry& {
-    static registry::Registry all;
-    all.load({DUST_TEST_PLUGINS});
-    return all;
-  }();
-  const Folder folder;
-  const auto file = folder.write("box.yaml", k_powder_box);
-  try {
-    return {{}, preflight::read_scenario(file, set, models).warnings};
-  } catch (const base::UserError& e) {
-    return {{e.what()}, {}};
-  }
+test::Said powder_said(const std::vector<scenario::Override>& set) {
+  return test::said_of(k_powder_box, set);
 }
 
 /// The one warning that says how deep grains pull themselves; "" without any.
 std::string pulled_deep(const std::vector<scenario::Override>& set) {
-  const PowderSaid all = powder_said(set);
+  const test::Said all = powder_said(set);
   REQUIRE(all.errors == std::vector<std::string>{});
   REQUIRE(all.warnings.size() < 2);
   return all.warnings.empty() ? std::string() : all.warnings.front();
@@ -140,7 +125,7 @@ TEST_CASE("bridges too large for the smallest grains of their law shall be refus
   };
   // R* 1 mm: 0.1 (2 R*)^3 is 0.8 mm3. The powder is none of this law's.
   CHECK(powder_said(bridges(2, "0.79 mm3")).errors == std::vector<std::string>{});
-  const PowderSaid large = powder_said(bridges(2, "10 mm3"));
+  const test::Said large = powder_said(bridges(2, "10 mm3"));
   REQUIRE(large.errors.size() == 1);
   INFO(large.errors[0]);
   CHECK(tells(large.errors[0],

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where bodies, emitters and sensors may be: what the checks before a run say of it.
 #include "base/error.hpp"
-#include "unit/scenario/support.hpp"
+#include "unit/preflight/said.hpp"
 
 #include <doctest/doctest.h>
 
@@ -43,29 +43,12 @@ sensors:
   plane: {model: plane_flux, point: [0, 0, 100 mm], normal: [0, 0, -1], min: [0, 0, 100 mm], max: [100, 50, 100 mm]}
 )";
 
-struct Said {
-  std::vector<std::string> errors, warnings;
-};
-
-Said said(const std::vector<scenario::Override>& set) {
-  static const registry::Registry& models = []() -> const registry::Registry& {
-    static registry::Registry all;
-    all.load({DUST_TEST_PLUGINS});
-    return all;
-  }();
-  const Folder folder;
-  const auto file = folder.write("shelf.yaml", k_shelf);
-  try {
-    return {{}, preflight::read_scenario(file, set, models).warnings};
-  } catch (const base::UserError& e) {
-    return {{e.what()}, {}};
-  }
-}
+test::Said said(const std::vector<scenario::Override>& set) { return test::said_of(k_shelf, set); }
 
 /// The one error, which holds all of `parts`; "" where it is so.
 std::string problem(const std::vector<scenario::Override>& set,
                     const std::vector<std::string>& parts) {
-  const Said all = said(set);
+  const test::Said all = said(set);
   if (all.errors.empty()) return "not refused";
   for (const std::string& part : parts) {
     if (all.errors.front().find(part) == std::string::npos) return all.errors.front();
@@ -82,7 +65,7 @@ TEST_CASE("what lies where it should shall not be complained of") {
 
 TEST_CASE("a body beside the domain shall be warned of however near it is") {
   const auto is_missed = [](const std::string& min, const std::string& max) {
-    const Said all = said({{"bodies.shelf.min", min}, {"bodies.shelf.max", max}});
+    const test::Said all = said({{"bodies.shelf.min", min}, {"bodies.shelf.max", max}});
     REQUIRE(all.errors.empty());
     return std::any_of(all.warnings.begin(), all.warnings.end(), [](const std::string& line) {
       return line.find("bodies.shelf: none of its surface is in the domain") != std::string::npos;
@@ -98,16 +81,17 @@ TEST_CASE("a body beside the domain shall be warned of however near it is") {
 TEST_CASE("a body thinner than a cell shall be warned of where spheres are resolved") {
   // Cells of 2.5 mm.
   const auto warnings = [](const scenario::Override& shelf) {
-    const Said all = said({{"domain.boundaries.front.air", "{model: no_slip}"},
-                           {"domain.boundaries.back.air", "{model: static_pressure, pressure: 0}"},
-                           {"domain.boundaries.bottom.air", "{model: no_slip}"},
-                           {"domain.boundaries.top.air", "{model: static_pressure, pressure: 0}"},
-                           {"fluid", "{cells: [40, 20, 80], density: 970, viscosity: 0.37 Pa s}"},
-                           {"coupling", "{resolved: [sand]}"},
-                           {"emitters.feed",
-                            "{model: single, material: sand, diameters: [20 mm], "
-                            "positions: [[50, 25, 100 mm]]}"},
-                           shelf});
+    const test::Said all =
+        said({{"domain.boundaries.front.air", "{model: no_slip}"},
+              {"domain.boundaries.back.air", "{model: static_pressure, pressure: 0}"},
+              {"domain.boundaries.bottom.air", "{model: no_slip}"},
+              {"domain.boundaries.top.air", "{model: static_pressure, pressure: 0}"},
+              {"fluid", "{cells: [40, 20, 80], density: 970, viscosity: 0.37 Pa s}"},
+              {"coupling", "{resolved: [sand]}"},
+              {"emitters.feed",
+               "{model: single, material: sand, diameters: [20 mm], "
+               "positions: [[50, 25, 100 mm]]}"},
+              shelf});
     CHECK(all.errors == std::vector<std::string>{});
     std::vector<std::string> thin;
     for (const std::string& line : all.warnings) {
@@ -135,8 +119,8 @@ TEST_CASE("a body thinner than a cell shall be warned of where spheres are resol
 TEST_CASE("a body that fast grains may miss at periodic sides shall be warned of") {
   // Grains of 4 mm; between left and right 100 mm apart.
   const auto warnings = [](const std::string& from, const std::string& to) {
-    const Said all = said({{"bodies.shelf.min", "[" + from + ", 0, 20 mm]"},
-                           {"bodies.shelf.max", "[" + to + ", 50, 30 mm]"}});
+    const test::Said all = said({{"bodies.shelf.min", "[" + from + ", 0, 20 mm]"},
+                                 {"bodies.shelf.max", "[" + to + ", 50, 30 mm]"}});
     CHECK(all.errors == std::vector<std::string>{});
     return std::count_if(all.warnings.begin(), all.warnings.end(), [](const std::string& line) {
       return line.find(
@@ -265,7 +249,7 @@ TEST_CASE("a load on walls that a side and a body share the name of shall be ref
 }
 
 TEST_CASE("a law that reaches farther than grains are thick shall be asked for its unit") {
-  const Said drops =
+  const test::Said drops =
       said({{"interactions[0].cohesion", "{model: lubrication, viscosity: 1 mPa s, reach: 10}"}});
   REQUIRE(drops.warnings.size() == 1);
   CHECK(drops.warnings[0].find("interactions[0].cohesion: reaches 10 mm beyond touch, farther than "
@@ -282,7 +266,7 @@ TEST_CASE("an emitter shall be told that its grains come in outside, or in somet
   CHECK(problem(at("[20, 10, 27 mm]", "[60, 40, 27 mm]"),
                 {"emitters.feed: its grains would start inside 'shelf'", "thrown out of it"}) ==
         "");
-  const Said part = said(at("[20, 30, 150 mm]", "[60, 70, 150 mm]"));
+  const test::Said part = said(at("[20, 30, 150 mm]", "[60, 70, 150 mm]"));
   REQUIRE(part.warnings.size() == 1);
   CHECK(part.warnings[0].find("grains would start beyond the side 'back'") != std::string::npos);
   CHECK(problem(at("[20, -10, 150 mm]", "[60, 20, 150 mm]"), {"inside the side 'front'"}) == "");
@@ -338,7 +322,7 @@ TEST_CASE("drops of a trajectory below the domain shall be refused with where th
 
 TEST_CASE("a point in a body at which the air is asked shall be warned of") {
   const auto warnings = [](const std::string& place) {
-    const Said all =
+    const test::Said all =
         said({{"fluid", "{cells: [10, 5, 20], density: 1.2, viscosity: 18 uPa s}"},
               {"domain.boundaries.front.air", "{model: no_slip}"},
               {"domain.boundaries.back.air", "{model: total_pressure}"},
@@ -381,7 +365,7 @@ TEST_CASE("a mesh smaller than a grain or a cell shall be asked for its unit") {
     set.emplace_back("bodies.sheet", "{shape: mesh, material: sand, file: " + mesh.string() +
                                          ", unit: " + unit +
                                          ", open: allowed, moved_by: [30, 10, 80 mm]}");
-    const Said all = said(set);
+    const test::Said all = said(set);
     INFO((all.errors.empty() ? std::string() : all.errors.front()));
     REQUIRE(all.errors.empty());
     REQUIRE(all.warnings.size() < 2);
@@ -408,7 +392,7 @@ TEST_CASE("a mesh smaller than a grain or a cell shall be asked for its unit") {
 
 TEST_CASE("a belt whose top runs away from its head shall be warned of") {
   const auto warned = [](const std::string& shape, const std::string& speed) {
-    const Said all =
+    const test::Said all =
         said({{"bodies.belt", "{shape: " + shape +
                                   ", material: sand, head: [70, 25, 80 mm], tail: [30, 25, 80 mm], "
                                   "radius: 10 mm, thickness: 2 mm, width: 30 mm, motion: belt, "
@@ -432,7 +416,7 @@ TEST_CASE("a stream that leaves the domain and meets nothing shall be warned of"
     set.emplace_back("bodies.shelf.min", "[-10, 30, 20 mm]");
     set.emplace_back("emitters.feed.max", "[60, 20, 150 mm]");
     set.insert(set.begin(), {"emitters.feed.mass_flow", "0.1 kg/s"});
-    const Said all = said(set);
+    const test::Said all = said(set);
     INFO((all.errors.empty() ? std::string() : all.errors.front()));
     REQUIRE(all.errors.empty());
     return std::any_of(all.warnings.begin(), all.warnings.end(), [](const std::string& line) {
@@ -483,9 +467,9 @@ TEST_CASE("a belt with cleats shall not be taken for a mesh from a file") {
       text.replace(at, 2, place);
     }
     CAPTURE(place);
-    const Said all = said({{"domain.boundaries.left.grains", "open"},
-                           {"domain.boundaries.right.grains", "open"},
-                           {"bodies.shelf", text}});
+    const test::Said all = said({{"domain.boundaries.left.grains", "open"},
+                                 {"domain.boundaries.right.grains", "open"},
+                                 {"bodies.shelf", text}});
     CHECK(all.errors == std::vector<std::string>{});
     for (const std::string& line : all.warnings) {
       CHECK(line.find("unit: 1 m") == std::string::npos);
@@ -500,7 +484,7 @@ TEST_CASE(
       {"sensors.rise", "{model: bubbles, " + box + ", direction: [1, 1, 0]}"},
       {"sensors.heap", "{model: angle_of_repose, form: planar, direction: [0, 0, 1]}"},
       {"sensors.lost", "{model: spillage, min: [10, 10, 40 mm], max: [10, 40, 90 mm]}"}};
-  const Said all = said(sensors);
+  const test::Said all = said(sensors);
   REQUIRE(all.errors.size() == 1);
   const std::string& text = all.errors.front();
   INFO(text);
@@ -516,8 +500,9 @@ TEST_CASE(
   CHECK(problem({{"gravity", "[0, 0, 0]"}, {"sensors.bed", "{model: bed_height, base: [0, 0, 0]}"}},
                 {"error: sensors.bed: bed_height needs a direction"}) == "");
   // Told once, in the words that know the remedy.
-  const Said stream = said({{"gravity", "[0, 0, 0]"},
-                            {"sensors.stream", "{model: trajectory, origin: [50, 25, 100 mm]}"}});
+  const test::Said stream =
+      said({{"gravity", "[0, 0, 0]"},
+            {"sensors.stream", "{model: trajectory, origin: [50, 25, 100 mm]}"}});
   REQUIRE(stream.errors.size() == 1);
   CHECK(stream.errors.front().find("needs gravity") ==
         stream.errors.front().rfind("needs gravity"));

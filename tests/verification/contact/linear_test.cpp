@@ -4,6 +4,7 @@
 #include "dust/sdk/random.hpp"
 #include "support/approx.hpp"
 #include "support/dem_rig.hpp"
+#include "verification/contact/densest_packing.hpp"
 
 #include <doctest/doctest.h>
 
@@ -97,23 +98,15 @@ TEST_CASE("the densest packing of low restitution shall come to rest on linear s
     DemRig rig;
     const int m = rig.material(2650, 20e6, 0.3);
     rig.laws_of(m, m, hooke(1e4, restitution));
-    rig.diameters = {diameter};
-    const double side = 0.999 * std::sqrt(2.0) * diameter;
-    rig.setup.domain.min = {0, 0, 0};
-    rig.setup.domain.max = {4 * side, 4 * side, 4 * side};
-    for (const int axis : {0, 1, 2}) rig.periodic(axis);
+    std::vector<NewGrain> grains = densest_packing(rig, diameter, 0.999);
     auto dem = rig.make();
-    const Vec3 corners[] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
     const dust::sdk::Random random(5, dust::sdk::stream_of("dense"));
-    std::vector<NewGrain> grains;
     Vec3 sum;
     for (std::uint32_t n = 0; n < 256; ++n) {
-      const Vec3 cell{n / 4 % 4 + 0.25, n / 16 % 4 + 0.25, n / 64 + 0.25};
-      Vec3 velocity;
-      for (std::uint32_t d = 0; d < 3; ++d) velocity[d] = 1e-6 * random.uniform(n, 0, d);
-      sum = sum + velocity;
-      grains.push_back(
-          {.position = side * (cell + corners[n % 4]), .velocity = velocity, .diameter = diameter});
+      for (std::uint32_t d = 0; d < 3; ++d) {
+        grains[n].velocity[static_cast<int>(d)] = 1e-6 * random.uniform(n, 0, d);
+      }
+      sum = sum + grains[n].velocity;
     }
     for (NewGrain& g : grains) g.velocity = g.velocity - sum / 256.0;
     dem->insert(grains);

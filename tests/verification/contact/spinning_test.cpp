@@ -2,6 +2,7 @@
 // Spinning impacts: Chung and Ooi, Granular Matter 13 (2011) 643, tests 6 to 8, strict Coulomb.
 #include "support/approx.hpp"
 #include "support/dem_rig.hpp"
+#include "verification/contact/densest_packing.hpp"
 #include "verification/contact/scalar_model.hpp"
 
 #include <doctest/doctest.h>
@@ -157,7 +158,6 @@ TEST_CASE("the densest packing shall stop spinning at the default step") {
   // All spin the same way: each contact slips twice as fast as one grain's own spin makes it, and
   // twelve dampers act on each grain. Friction holds: the overlaps are those of a deep bed.
   constexpr double diameter = 0.01;
-  constexpr double side = 0.995 * std::numbers::sqrt2 * diameter;
   const DemRig::Choice laws[] = {
       {"hertz_mindlin", {{"restitution", 0.5}, {"friction", 0.5}}},
       {"hertz_mindlin", {{"restitution", 0.3}, {"friction", 0.5}}},
@@ -170,20 +170,13 @@ TEST_CASE("the densest packing shall stop spinning at the default step") {
     DemRig rig;
     const int m = rig.material(2650, 20e6, 0.3);
     rig.laws_of(m, m, law);
-    rig.diameters = {diameter};
-    rig.setup.domain.min = {0, 0, 0};
-    rig.setup.domain.max = {4 * side, 4 * side, 4 * side};
-    for (const int axis : {0, 1, 2}) rig.periodic(axis);
-    auto dem = rig.make();
-    const Vec3 corners[] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
-    std::vector<NewGrain> grains;
-    for (int n = 0; n < 256; ++n) {
-      const Vec3 cell{n / 4 % 4 + 0.25, n / 16 % 4 + 0.25, n / 64 + 0.25};
-      grains.push_back({.position = side * (cell + corners[n % 4]),
-                        .velocity = 1e-6 * Vec3{1.0 * (n % 7), 1.0 * (n % 5), 1.0 * (n % 3)},
-                        .rotation = {1e-4, 2e-4, -1e-4},
-                        .diameter = diameter});
+    std::vector<NewGrain> grains = densest_packing(rig, diameter, 0.995);
+    for (std::size_t n = 0; n < grains.size(); ++n) {
+      const auto k = static_cast<int>(n);
+      grains[n].velocity = 1e-6 * Vec3{1.0 * (k % 7), 1.0 * (k % 5), 1.0 * (k % 3)};
+      grains[n].rotation = {1e-4, 2e-4, -1e-4};
     }
+    auto dem = rig.make();
     dem->insert(grains);
     Stepper stepper(*dem);
     while (stepper.time() < 0.1) stepper.step();
