@@ -7,14 +7,18 @@
 
 namespace dust::resolved {
 
+double retraction(double cells) { return 0.28 + 1.07 / cells; }
+
 int marker_count(double cells) {
-  return static_cast<int>(std::ceil(std::numbers::pi / 3.0 * (3.0 * cells * cells + 1.0)));
+  const double layer = std::numbers::pi / 3.0 * (3.0 * cells * cells + 1.0);
+  return static_cast<int>(std::ceil(layer / k_cells_per_marker));
 }
 
 /// A spiral of equal areas that turns by the golden angle from point to point (Swinbank and Purser
 /// 2006, 10.1256/qj.05.227).
 MarkerLattice make_lattice(double diameter, double spacing) {
-  const int count = marker_count(diameter / spacing);
+  const double cells = diameter / spacing;
+  const int count = marker_count(cells);
   const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
   MarkerLattice lattice;
   lattice.direction.reserve(static_cast<std::size_t>(count));
@@ -24,7 +28,7 @@ MarkerLattice make_lattice(double diameter, double spacing) {
     const double angle = golden_angle * n;
     lattice.direction.push_back({width * std::cos(angle), width * std::sin(angle), height});
   }
-  lattice.radius = 0.5 * diameter - k_retraction * spacing;
+  lattice.radius = 0.5 * diameter - retraction(cells) * spacing;
   const double layer = std::numbers::pi * spacing / 3.0 *
                        (12.0 * lattice.radius * lattice.radius + spacing * spacing);
   lattice.volume = layer / count;

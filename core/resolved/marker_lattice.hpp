@@ -7,16 +7,21 @@
 
 namespace dust::resolved {
 
-/// Of a cell: how far inside the surface the markers stand, so that the fluid, which meets a layer
-/// as thick as the delta function, has the drag of the sphere itself: docs/theory/resolved.md, eq.
-/// (2). Breugem (2012) takes 0.3; found here with cubic arrays at 16 cells across.
-inline constexpr double k_retraction = 0.37;
+/// Of a cell: how far inside the surface the markers stand in a sphere of so many `cells` across,
+/// so that the fluid, which meets a layer as thick as the delta function, has the drag of the
+/// sphere itself: docs/theory/resolved.md, eq. (2), found with cubic arrays.
+[[nodiscard]] double retraction(double cells);
+
+/// Cells of the surface for each marker. Markers that see nearly the same faces can push them
+/// against each other without moving the fluid: such forces would take hundreds of steps to settle,
+/// and the drag with them.
+inline constexpr double k_cells_per_marker = 2.5;
 
 /// Markers of a sphere of so many `cells` across; docs/theory/resolved.md, eq. (3).
 [[nodiscard]] int marker_count(double cells);
 
 /// Markers on a sphere, spread so that each stands for the same area: the layer of the thickness of
-/// a cell around it, cut into pieces of about a cell's volume.
+/// a cell around it, cut into pieces of `k_cells_per_marker` cells.
 struct MarkerLattice {
   std::vector<sdk::Vec3> direction;  ///< unit vectors, in the axes of the domain
   double radius = 0.0;               ///< [m] where they stand

@@ -63,6 +63,6 @@ TEST_CASE("V-FILM: a resolved sphere shall come near a floor in the time of Bren
   const auto without = passages({"--set", "interactions[1].cohesion.viscosity=1e-9 Pa s"});
   MESSAGE("without the film law, 0.1 to 0.05 mm: " << (without[4] - without[3]) /
                                                           closed_form(1e-4, 5e-5));
-  CHECK(without[4] - without[3] < 0.8 * closed_form(1e-4, 5e-5));
-  CHECK(with[4] - with[3] > closed_form(1e-4, 5e-5));
+  CHECK(without[4] - without[3] < 0.5 * closed_form(1e-4, 5e-5));
+  CHECK(with[4] - with[3] == approx(closed_form(1e-4, 5e-5)).epsilon(0.12));
 }

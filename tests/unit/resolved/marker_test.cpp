@@ -35,7 +35,7 @@ TEST_CASE("resolved: the delta function has the whole weight, and its mean place
 TEST_CASE("resolved: markers cover the sphere evenly") {
   const auto lattice = resolved::make_lattice(12.0, 1.0);
   CHECK(static_cast<int>(lattice.direction.size()) == resolved::marker_count(12.0));
-  CHECK(lattice.radius == test::approx(12.0 / 2.0 - resolved::k_retraction));
+  CHECK(lattice.radius == test::approx(12.0 / 2.0 - resolved::retraction(12.0)));
   const auto count = static_cast<double>(lattice.direction.size());
   Vec3 sum;
   double xx = 0.0;
@@ -49,20 +49,20 @@ TEST_CASE("resolved: markers cover the sphere evenly") {
   CHECK(norm(sum) / count < 1e-3);
   CHECK(xx / count == test::approx(1.0 / 3.0).epsilon(1e-3));
   CHECK(std::abs(xy) / count < 1e-3);
-  // The layer of one cell that they stand for, and pieces no larger than a cell.
+  // The layer of one cell that they stand for, and pieces no larger than two and a half.
   const double layer = 4.0 / 3.0 * std::numbers::pi *
                        (std::pow(lattice.radius + 0.5, 3) - std::pow(lattice.radius - 0.5, 3));
   CHECK(count * lattice.volume == test::approx(layer).epsilon(1e-12));
-  CHECK(lattice.volume < 1.0);
-  CHECK(lattice.volume > 0.8);
+  CHECK(lattice.volume < resolved::k_cells_per_marker);
+  CHECK(lattice.volume > 0.8 * resolved::k_cells_per_marker);
   // None stands so near another one that a place would count twice, none so far that fluid passes.
   for (const Vec3& a : lattice.direction) {
     double nearest = 10.0;
     for (const Vec3& b : lattice.direction) {
       if (&a != &b) nearest = std::min(nearest, lattice.radius * norm(a - b));
     }
-    CHECK(nearest > 0.6);
-    CHECK(nearest < 1.1);
+    CHECK(nearest > 1.2);
+    CHECK(nearest < 1.7);
   }
 }
 
