@@ -306,13 +306,13 @@ void Sides::fill_component(std::vector<double>& v, int d, int direction, bool fo
   }
 }
 
-/// Beyond a pressure side that lets pass nothing along it, the velocity that the side beside it
-/// gives on its own faces is mirrored like that of the faces next to them. Sides are filled axis by
-/// axis: where the giving side comes later it has overwritten these numbers.
+/// Beyond a side that gives the velocity along itself, the velocity that the side beside it gives on
+/// its own faces is mirrored like that of the faces next to them. Sides are filled axis by axis:
+/// where the side beside it comes later it has overwritten these numbers.
 void Sides::fill_corners(FaceField& u, bool for_sweeps) const {
   for (int side = 0; side < 6; ++side) {
     const int direction = side / 2;
-    if (!is_pressure_side(kinds_, direction, side % 2)) continue;
+    if (kinds_.is_periodic[direction]) continue;
     for (int d = direction + 1; d < 3; ++d) {
       if (kinds_.is_periodic[d] || ghost_rule(kinds_, d, direction, side % 2) != GhostRule::fixed) {
         continue;

@@ -581,8 +581,6 @@ void start(Simulation& simulation, Branch* branch) {
 
 StartFacts start_facts(const Branch& branch, const Simulation& simulation) {
   CountsBefore before = branch.before();
-  before.mass = simulation.dem().balance().mass_emitted;
-  before.dust = dust_so_far(simulation);
   before.work = work_so_far(simulation);
   return {.state = branch.origin().state().file().string(),
           .time = branch.origin().time(),

@@ -450,6 +450,19 @@ TEST_CASE("rates and shares of a hood that begins in a branch shall count from t
   CHECK(hood["dust_g_per_tonne"].get<double>() == dust::test::approx(1e6 * dust / load));
   CHECK(hood["share_of_dust"].get<double>() > 0.0);
   CHECK(hood["share_of_dust"].get<double>() < 1.5);  // some of what hung in the air before
+  // And of a run that started from that one, where the hood is no longer new.
+  std::vector<std::string> again = settings;
+  again[1] = "start_from=" + (folder / "branch").string();
+  for (const char* friction : {"0.4", "0.2"}) {
+    CAPTURE(friction);  // the first says the same, the second something else
+    again.push_back(std::string("interactions[0].contact.friction=") + friction);
+    REQUIRE(run(folder / friction, "0.45 s", again, "1", scenario).status == 0);
+    const auto last = summary(friction);
+    const double drawn = last["hoods"]["bottom"]["dust_kg"];
+    CHECK(drawn > dust);
+    CHECK(last["hoods"]["bottom"]["dust_kg_per_h"].get<double>() ==
+          dust::test::approx(3600.0 * drawn / 0.15));
+  }
 }
 
 TEST_CASE(
@@ -511,4 +524,18 @@ TEST_CASE("the report of dust set free in a branch shall say what its summary sa
     CHECK(row[1].get<double>() ==
           dust::test::approx(causes[row[0].get<std::string>()]["g_per_tonne"].get<double>()));
   }
+  // Of a run that started from that one, with the same loads: since they are.
+  settings[2] = "start_from=" + (folder / "branch").string();
+  settings.push_back("interactions[0].contact.friction=0.25");
+  const auto again = run(folder / "again", "0.35 s", settings, "1", scenario);
+  INFO(again.err);
+  REQUIRE(again.status == 0);
+  const auto later =
+      nlohmann::json::parse(read_file(folder / "again" / "summary.json"))["dust_on_grains"];
+  for (const auto& [cause, set_free] : later["classes"]["10_um"]["set_free_by"].items()) {
+    CAPTURE(cause);
+    CHECK(set_free["kg_per_h"].get<double>() ==
+          dust::test::approx(3600.0 * set_free["kg"].get<double>() / 0.2));
+  }
+
 }

@@ -8,6 +8,7 @@
 #include "run/branch/past.hpp"
 #include "run/dust/hoods.hpp"
 #include "run/insertion/entry.hpp"
+#include "run/summary/summary_dust.hpp"
 
 #include <algorithm>
 #include <array>
@@ -333,12 +334,14 @@ void Branch::give_to(Simulation& simulation) {
       transfer(to);
     });
     note_changed_emitters(simulation.insertion());
+    note_beginnings(simulation);
     simulation.begin_sensors(sensors_going_on_);
     simulation.begin_dust_figures();
     return;
   }
   origin_.state().read(simulation.load_parts());
   note_changed_emitters(simulation.insertion());
+  note_beginnings(simulation);
   simulation.begin_dust_figures();
   report_.particles = simulation.dem().balance().in_domain;
   report_.contacts = simulation.dem().report().contacts;
@@ -350,10 +353,6 @@ void Branch::transfer(const Simulation::Owners& to) {
   const double steps = origin_.time() / now_.setup.time.fluid_step;
   to.clock.start_at(std::llround(steps));
   transfer_particles(to);
-  const auto hoods_there = openings_of(origin_.scenario().setup, origin_.scenario().dust);
-  for (const particles::Opening& hood : openings_of(now_.setup, now_.dust)) {
-    if (base::find_named(hoods_there, hood.name) == nullptr) before_.new_hoods.push_back(hood.name);
-  }
   transfer_insertion(to);
   if (to.fluid != nullptr) transfer_fluid(to);
   if (to.dust != nullptr) transfer_dust(to);
@@ -449,6 +448,23 @@ void Branch::note_changed_emitters(const Insertion& insertion) {
   }
 }
 
+void Branch::note_beginnings(const Simulation& simulation) {
+  const CountedSince now = {origin_.time(), simulation.dem().balance().mass_emitted,
+                            dust_so_far(simulation)};
+  const auto past = load_past(origin_.state());
+  const CountsBefore then = past.start ? past.start->before : CountsBefore{};
+  before_.field = is_field_new_ ? now : then.field;
+  before_.loads = are_loads_new_ ? now : then.loads;
+  const auto there = openings_of(origin_.scenario().setup, origin_.scenario().dust);
+  for (const particles::Opening& hood : openings_of(now_.setup, now_.dust)) {
+    if (base::find_named(there, hood.name) == nullptr) {
+      before_.new_hoods.push_back({hood.name, now});
+    } else if (const auto* known = base::find_named(then.new_hoods, hood.name)) {
+      before_.new_hoods.push_back(*known);
+    }
+  }
+}
+
 bool Branch::is_same_grid() const {
   const auto& here = now_.setup;
   const auto& there = origin_.scenario().setup;
@@ -519,7 +535,7 @@ void Branch::transfer_dust(const Simulation::Owners& to) {
         "dust.field has another grid or other classes, bodies move where none did or none where "
         "some did, or there was none: its air starts as the scenario says");
     to.dust->start();
-    before_.is_field_new = true;
+    is_field_new_ = true;
     return;
   }
   DustPlaces places(theirs, now_);
@@ -561,7 +577,7 @@ void Branch::transfer_liberation(const Simulation::Owners& to) {
     warn(
         "grains carried no dust, or dust of other classes, or their materials have another "
         "dust_load: they carry what materials say");
-    before_.are_loads_new = true;
+    are_loads_new_ = true;
     return;
   }
   const std::vector<std::string> walls = their_particles().wall_names();

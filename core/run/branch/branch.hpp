@@ -42,7 +42,7 @@ class Branch {
   [[nodiscard]] const std::vector<std::string>& sensors_going_on() const {
     return sensors_going_on_;
   }
-  /// What begins in this run: hoods, emitters, dust; without the amounts of before.
+  /// What began with this run or with one that it comes from: hoods, emitters, dust.
   [[nodiscard]] const CountsBefore& before() const { return before_; }
   /// Sizes of the particles that come along.
   void add_diameters(std::vector<double>& class_diameters) const;
@@ -72,6 +72,8 @@ class Branch {
   /// Those whose settings are not, or had not been, the same since the very beginning: what they
   /// had brought by now was not asked for by these.
   void note_changed_emitters(const Insertion& insertion);
+  /// Counts that begin here, and those that had begun in the other run or before it.
+  void note_beginnings(const Simulation& simulation);
   void report_obstacles(const particles::TransferObstacles& obstacles);
   [[nodiscard]] bool same(std::string_view path,
                           std::span<const std::string_view> ignored = {}) const;
@@ -109,6 +111,8 @@ class Branch {
   std::unique_ptr<particles::Dem> their_particles_;
   particles::TransferReport report_;
   std::vector<std::string> sensors_going_on_;
+  bool is_field_new_ = false;
+  bool are_loads_new_ = false;
   CountsBefore before_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* k_warnings = "warnings";
 constexpr const char* k_counts = "counts";
-constexpr const char* k_before = "before";
+constexpr const char* k_since = "counted_since";
 constexpr const char* k_changed = "changed_emitters";
 
 /// Texts one behind the other, a letter a number and a zero behind each.
@@ -55,17 +55,29 @@ StartFacts load_start(sdk::ArchiveReader& archive) {
   return start;
 }
 
+constexpr std::size_t k_since_numbers = 3;
+
+void add_since(const CountedSince& since, std::vector<double>& to) {
+  to.insert(to.end(), {since.time, since.mass, since.dust});
+}
+CountedSince since_of(const std::vector<double>& numbers, std::size_t n) {
+  const std::size_t at = k_since_numbers * n;
+  return {numbers.at(at), numbers.at(at + 1), numbers.at(at + 2)};
+}
+
 CountsBefore load_before(sdk::ArchiveReader& archive) {
-  const auto numbers = archive.numbers(k_before);
-  const auto counts = archive.integers("before_counts");
-  return {.mass = numbers.at(0),
-          .dust = numbers.at(1),
-          .new_hoods = texts_of(archive.integers("new_hoods")),
-          .new_emitters = texts_of(archive.integers("new_emitters")),
-          .changed_emitters = {},
-          .is_field_new = counts.at(0) != 0,
-          .are_loads_new = counts.at(1) != 0,
-          .work = {counts.at(2), counts.at(3), counts.at(4), counts.at(5), counts.at(6)}};
+  const auto since = archive.numbers(k_since);
+  const auto work = archive.integers("work_before");
+  CountsBefore before = {.new_hoods = {},
+                         .new_emitters = texts_of(archive.integers("new_emitters")),
+                         .changed_emitters = {},
+                         .field = since_of(since, 0),
+                         .loads = since_of(since, 1),
+                         .work = {work.at(0), work.at(1), work.at(2), work.at(3), work.at(4)}};
+  for (std::string& name : texts_of(archive.integers("new_hoods"))) {
+    before.new_hoods.push_back({std::move(name), since_of(since, 2 + before.new_hoods.size())});
+  }
+  return before;
 }
 
 std::vector<CountsBefore::ChangedEmitter> load_changed(sdk::ArchiveReader& archive) {
@@ -90,18 +102,21 @@ void save_past(const Past& past, sdk::ArchiveWriter& archive) {
   archive.integers(k_counts, counts);
   archive.integers("sensors", letters_of(start.sensors));
   const CountsBefore& before = start.before;
-  const double numbers[] = {before.mass, before.dust};
   const CountsBefore::Work& work = before.work;
-  const std::int64_t before_counts[] = {before.is_field_new ? 1 : 0,
-                                        before.are_loads_new ? 1 : 0,
-                                        work.particle_steps,
-                                        work.fine_steps,
-                                        work.steps,
-                                        work.fluid_sub_steps,
-                                        work.dust_sub_steps};
-  archive.numbers(k_before, numbers);
-  archive.integers("before_counts", before_counts);
-  archive.integers("new_hoods", letters_of(before.new_hoods));
+  const std::int64_t work_before[] = {work.particle_steps, work.fine_steps, work.steps,
+                                      work.fluid_sub_steps, work.dust_sub_steps};
+  archive.integers("work_before", work_before);
+  // Of dust in the air, of dust on grains, of each new hood.
+  std::vector<double> since;
+  add_since(before.field, since);
+  add_since(before.loads, since);
+  std::vector<std::string> hoods;
+  for (const CountsBefore::NewHood& hood : before.new_hoods) {
+    hoods.push_back(hood.name);
+    add_since(hood.since, since);
+  }
+  archive.numbers(k_since, since);
+  archive.integers("new_hoods", letters_of(hoods));
   archive.integers("new_emitters", letters_of(before.new_emitters));
   std::vector<std::string> changed;
   std::vector<double> masses;
@@ -119,7 +134,7 @@ Past load_past(const io::StoredState& state) {
   state.read({{k_past_part, [&](sdk::ArchiveReader& a) {
                  past.warnings = texts_of(a.integers(k_warnings));
                  if (state.has(k_past_part, k_counts)) past.start = load_start(a);
-                 if (state.has(k_past_part, k_before)) past.start->before = load_before(a);
+                 if (state.has(k_past_part, k_since)) past.start->before = load_before(a);
                  if (state.has(k_past_part, k_changed)) {
                    past.start->before.changed_emitters = load_changed(a);
                  }

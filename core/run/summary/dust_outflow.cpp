@@ -48,21 +48,20 @@ Json sampled(const Simulation& s, const CountedSince& since,
 }  // namespace
 
 Json dust_outflow_json(const Simulation& s, const RunFacts& facts) {
-  const bool is_field_new = facts.start && facts.start->before.is_field_new;
+  const CountedSince field = facts.start ? facts.start->before.field : CountedSince{};
   const std::vector<particles::Opening>& openings = s.dust_stage()->openings();
   Json j = Json::object();
   for (std::size_t o = 0; o < openings.size(); ++o) {
-    const bool is_new = is_field_new || is_new_hood(facts, openings[o].name);
+    const CountedSince hood = hood_since(facts, openings[o].name);
     j[openings[o].name] =
-        sampled(s, counted_since(facts, is_new),
+        sampled(s, hood.time > field.time ? hood : field,
                 [&](const airborne::DustBalance& balance) { return balance.outlets[o]; });
   }
   for (std::size_t side = 0; side < 6; ++side) {
     if (!s.dust_stage()->lets_dust_out(side)) continue;
     const std::string name = scenario::k_side_names[side];
     j[j.contains(name) ? name + k_beside_hood : name] =
-        sampled(s, counted_since(facts, is_field_new),
-                [&](const airborne::DustBalance& balance) { return balance.left[side]; });
+        sampled(s, field, [&](const airborne::DustBalance& balance) { return balance.left[side]; });
   }
   return j;
 }

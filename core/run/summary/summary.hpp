@@ -17,20 +17,31 @@
 
 namespace dust::run {
 
-/// What was counted when a run started from another, and which counts begin there: of those the
-/// time, the load and the dust of before do not count.
-struct CountsBefore {
+/// When something began that is counted from there on, and what was counted by then; nothing of
+/// what goes on since the very beginning.
+struct CountedSince {
+  double time = 0.0;  ///< [s]
   double mass = 0.0;  ///< [kg] emitted
   double dust = 0.0;  ///< [kg] of dust, emitted as grains and released into the air
-  std::vector<std::string> new_hoods, new_emitters;
+};
+
+/// Which counts of a run that started from another have begun with it, or with one that it comes
+/// from by way of others: the time, the load and the dust of before do not count for them.
+struct CountsBefore {
+  struct NewHood {
+    std::string name;
+    CountedSince since;
+  };
+  std::vector<NewHood> new_hoods;
+  std::vector<std::string> new_emitters;
   /// One that had brought something by other settings.
   struct ChangedEmitter {
     std::string name;
     double mass = 0.0;  ///< [kg] by then, with what waited for its place
   };
   std::vector<ChangedEmitter> changed_emitters;
-  bool is_field_new = false;
-  bool are_loads_new = false;
+  CountedSince field;  ///< dust in the air
+  CountedSince loads;  ///< dust on grains
   /// Work that another run has done and that counters hold which go on.
   struct Work {
     std::int64_t particle_steps = 0, fine_steps = 0;
@@ -73,17 +84,6 @@ struct RunFacts {
   std::optional<StartFacts> start;               ///< nothing: at 0 s
   std::vector<std::string> log_header;           ///< the first lines of run.log
 };
-
-/// Since when something is counted that may have begun with the run's own start.
-struct CountedSince {
-  double time = 0.0;  ///< [s]
-  double mass = 0.0;  ///< [kg] emitted before
-  double dust = 0.0;  ///< [kg]
-};
-inline CountedSince counted_since(const RunFacts& facts, bool is_new) {
-  if (!facts.start || !is_new) return {};
-  return {facts.start->time, facts.start->before.mass, facts.start->before.dust};
-}
 
 /// The nodes of the two graphs, those of a grain step first, with their times since the last
 /// resume.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary/summary_dust.hpp"
 
+#include "base/named.hpp"
 #include "particles/store/balance_ledger.hpp"
 #include "run/summary/practice_rules.hpp"
 #include "setup/dust_rule.hpp"
@@ -70,7 +71,7 @@ Json induced_air_json(const Simulation& s) {
 
 /// Since when what comes off grains is counted.
 CountedSince loads_since(const RunFacts& facts) {
-  return counted_since(facts, facts.start && facts.start->before.are_loads_new);
+  return facts.start ? facts.start->before.loads : CountedSince{};
 }
 
 }  // namespace
@@ -136,10 +137,10 @@ double dust_so_far(const Simulation& s) {
   return dust;
 }
 
-bool is_new_hood(const RunFacts& facts, const std::string& name) {
-  if (!facts.start) return false;
-  const auto& hoods = facts.start->before.new_hoods;
-  return std::find(hoods.begin(), hoods.end(), name) != hoods.end();
+CountedSince hood_since(const RunFacts& facts, const std::string& name) {
+  if (!facts.start) return {};
+  const auto* hood = base::find_named(facts.start->before.new_hoods, name);
+  return hood != nullptr ? hood->since : CountedSince{};
 }
 
 Json hoods_json(const Simulation& s, const RunFacts& facts) {
@@ -154,7 +155,7 @@ Json hoods_json(const Simulation& s, const RunFacts& facts) {
   for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
     const Drawn drawn = drawn_by(s, o);
     const std::string& name = s.dem().openings()[o].name;
-    const CountedSince since = counted_since(facts, is_new_hood(facts, name));
+    const CountedSince since = hood_since(facts, name);
     j[name] = {{"particles", static_cast<std::int64_t>(drawn.particles)},
                {"mass_kg", drawn.mass},
                {"dust_kg", drawn.dust},

@@ -26,7 +26,7 @@ Drawn drawn_by(const Simulation& s, std::size_t opening);
 double dust_so_far(const Simulation& s);
 
 /// Whether what a hood draws counts from a branch's own start on.
-[[nodiscard]] bool is_new_hood(const RunFacts& facts, const std::string& name);
+[[nodiscard]] CountedSince hood_since(const RunFacts& facts, const std::string& name);
 
 /// By hood: {"particles", "mass_kg" of them, "dust_kg" as grains and of a field, "dust_g_per_tonne"
 /// of all grains released, "dust_kg_per_h" over the whole run, "share_of_dust" released, with a

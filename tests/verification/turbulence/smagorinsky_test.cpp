@@ -7,6 +7,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -283,6 +285,63 @@ TEST_CASE("eddies shall end at walls, be they sides or bodies on the grid's plan
              false, 5.0);
   for (int k = 0; k < 16; ++k) CHECK(std::abs(sides[static_cast<std::size_t>(k)] - 5.0) < 1e-5);
   for (int k = 3; k < 13; ++k) CHECK(std::abs(bodies[static_cast<std::size_t>(k)] - 5.0) < 1e-5);
+}
+
+TEST_CASE("eddies in the corners of a box shall not depend on the names of the axes") {
+  // A lid that moves along the first of the axes, a belt along the second, an open side: whose
+  // edges meet walls. Other orders of the names, and the eddy viscosity of the cell with the same
+  // place.
+  const auto eddies = [](const std::array<int, 3>& axis) {
+    const auto along = [&](Vec3 v) {
+      Vec3 named;
+      for (std::size_t n = 0; n < 3; ++n) named[axis[n]] = v[static_cast<int>(n)];
+      return named;
+    };
+    const auto model = smagorinsky();
+    std::array<int, 3> cells{};
+    for (std::size_t n = 0; n < 3; ++n)
+      cells[static_cast<std::size_t>(axis[n])] = 6 + 2 * static_cast<int>(n);
+    auto c = box(cells, along({0.06, 0.08, 0.1}), 1.8e-5);
+    const auto side = [&](int n, int high) -> auto& {
+      return c.sides[static_cast<std::size_t>(2 * axis[static_cast<std::size_t>(n)] + high)];
+    };
+    side(0, 0) = test::wall();
+    side(0, 1) = test::open_side(0.0, false);
+    side(1, 0) = test::wall(along({0.7, 0.0, 0.0}));
+    side(1, 1) = test::wall(along({0.0, 0.0, 0.4}));
+    side(2, 0) = test::wall();
+    side(2, 1) = test::wall(along({1.0, 0.3, 0.0}));
+    c.start();
+    c.solver->use(*model);
+    c.advance(1e-6);
+    std::vector<double> found;
+    for (int k = 0; k < 10; ++k) {
+      for (int j = 0; j < 8; ++j) {
+        for (int i = 0; i < 6; ++i) {
+          std::array<int, 3> at{};
+          for (std::size_t n = 0; n < 3; ++n)
+            at[static_cast<std::size_t>(axis[n])] = std::array<int, 3>{i, j, k}[n];
+          found.push_back((*c.solver->eddy_viscosity())[static_cast<std::size_t>(
+              c.grid.index(at[0], at[1], at[2]))]);
+        }
+      }
+    }
+    return found;
+  };
+  const auto first = eddies({0, 1, 2});
+  const double largest = *std::max_element(first.begin(), first.end());
+  CHECK(largest > 0.0);
+  for (const std::array<int, 3>& axis :
+       {std::array<int, 3>{1, 2, 0}, std::array<int, 3>{2, 0, 1}, std::array<int, 3>{1, 0, 2},
+        std::array<int, 3>{0, 2, 1}, std::array<int, 3>{2, 1, 0}}) {
+    CAPTURE(axis[0]);
+    CAPTURE(axis[1]);
+    const auto other = eddies(axis);
+    double apart = 0.0;
+    for (std::size_t n = 0; n < first.size(); ++n)
+      apart = std::max(apart, std::abs(other[n] - first[n]));
+    CHECK(apart < 1e-9 * largest);
+  }
 }
 
 }  // namespace
