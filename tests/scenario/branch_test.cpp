@@ -537,5 +537,4 @@ TEST_CASE("the report of dust set free in a branch shall say what its summary sa
     CHECK(set_free["kg_per_h"].get<double>() ==
           dust::test::approx(3600.0 * set_free["kg"].get<double>() / 0.2));
   }
-
 }

@@ -62,7 +62,7 @@ TEST_CASE(
 
 TEST_CASE("engine check shall tell of resolved spheres how many cells and markers they have") {
   const std::string output = checked({}, 0);
-  CHECK_MESSAGE(holds(output, "sphere: spheres of 8.4 mm are 8.4 cells across, 89 markers each"),
+  CHECK_MESSAGE(holds(output, "sphere: spheres of 8.4 mm are 8.4 cells across, 90 markers each"),
                 output);
 }
 

@@ -131,6 +131,12 @@ TEST_CASE("a run for which no hood can be suggested shall be refused with place 
   CHECK(holds(refused(folder / "blind"), "no sensor looks for places of low pressure"));
   run(folder / "loose", {"time.end=20 ms", "sensors.exit.role=passage"});
   CHECK(holds(refused(folder / "loose"), "no sensor watches an opening"));
+  // A dust field whose means have not begun: a study without measures would say nothing.
+  run(folder / "early",
+      {"time.end=0.24 s",
+       "dust={finer_than: 10 um, steady_after: 0.24 s, field: {classes: [5 um], material: fluff, "
+       "sources: {s: {min: [10, 1, 30 mm], max: [30, 9, 36 mm], mass_flow: [0.02 mg/s]}}}}"});
+  CHECK(holds(refused(folder / "early"), "summary.json:1: error: dust_rates has no dust"));
   const auto flow = engine({"suggest-hoods", out, "--flows", "3 mm"});
   CHECK(flow.status == 2);
   CHECK(holds(flow.err, "--flows: 'mm' is the unit of a length"));

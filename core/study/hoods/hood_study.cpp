@@ -249,8 +249,9 @@ void write_cases(std::ostringstream& out, const HoodStudy& study, const std::str
 }
 
 /// What of a dust field gets out by each side in the steady stream: what the run before has let out
-/// does not count.
-void write_field_measures(std::ostringstream& out, const FinishedRun& run) {
+/// does not count. False where the run knows no such rate.
+bool write_field_measures(std::ostringstream& out, const FinishedRun& run) {
+  bool is_any = false;
   const std::string left = "left/", rate = "/rate";
   const nlohmann::json rates = report::object_at(run.text.summary, "dust_rates");
   for (const auto& item : rates.items()) {
@@ -259,13 +260,19 @@ void write_field_measures(std::ostringstream& out, const FinishedRun& run) {
     const std::string side = key.substr(left.size(), key.size() - left.size() - rate.size());
     if (side == "all" || side.find('/') != std::string::npos) continue;
     out << "  out_" << side << ": {quantity: dust_rates.left." << side << ".rate, unit: kg/h}\n";
+    is_any = true;
   }
+  return is_any;
 }
 
 void write_measures(std::ostringstream& out, const FinishedRun& run) {
   out << "measure:\n";
   if (run.scenario.dust.field) {
-    write_field_measures(out, run);
+    if (!write_field_measures(out, run)) {
+      refuse((run.folder / "summary.json").string() + ":1",
+             "dust_rates has no dust that leaves by a side, so no hood can be told from none: run "
+             "it on beyond dust.steady_after, with a side that is open to the air");
+    }
   } else {
     out << "  drawn_out: {quantity: mass_kg.removed, unit: mg}\n";
   }
