@@ -306,8 +306,8 @@ void Sides::fill_component(std::vector<double>& v, int d, int direction, bool fo
   }
 }
 
-/// Beyond a side that gives the velocity along itself, the velocity that the side beside it gives on
-/// its own faces is mirrored like that of the faces next to them. Sides are filled axis by axis:
+/// Beyond a side that gives the velocity along itself, the velocity that the side beside it gives
+/// on its own faces is mirrored like that of the faces next to them. Sides are filled axis by axis:
 /// where the side beside it comes later it has overwritten these numbers.
 void Sides::fill_corners(FaceField& u, bool for_sweeps) const {
   for (int side = 0; side < 6; ++side) {

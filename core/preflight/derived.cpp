@@ -146,6 +146,11 @@ void derive_ratios(const Setup& setup, Derived& derived) {
 
 void derive_resolved(const Setup& setup, const ParticleModels& models, Derived& derived) {
   if (!setup.fluid) return;
+  if (setup.fluid->resolved.empty()) {
+    const auto& classes = derived.steps.classes;
+    derived.largest_unresolved = classes.empty() ? 0.0 : classes.back().diameter;
+    return;
+  }
   const sdk::Vec3 h =
       fluid::Grid::make(setup.domain.min, setup.domain.max, setup.fluid->cells, {}).spacing;
   for (std::size_t n = 0; n < models.emitters.size(); ++n) {
@@ -153,7 +158,12 @@ void derive_resolved(const Setup& setup, const ParticleModels& models, Derived& 
     const int material =
         emitter.more_materials.empty() ? emitter.material : emitter.more_materials.front();
     const auto diameters = models.emitters[n]->diameters();
-    if (!setup.fluid->resolves(material) || diameters.empty()) continue;
+    if (diameters.empty()) continue;
+    if (!setup.fluid->resolves(material)) {
+      derived.largest_unresolved = std::max(derived.largest_unresolved,
+                                            *std::max_element(diameters.begin(), diameters.end()));
+      continue;
+    }
     const double least = *std::min_element(diameters.begin(), diameters.end());
     derived.resolved.push_back({emitter.name, least, least / std::max({h.x, h.y, h.z}),
                                 resolved::marker_count(least / derived.mean_spacing)});

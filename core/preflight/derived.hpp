@@ -32,6 +32,7 @@ struct Derived {
   ImpactOverlap impact;         ///< the softest, at the expected speed or that of a fall
   std::vector<EmissionNumbers> emissions;
   std::vector<ResolvedNumbers> resolved;
+  double largest_unresolved = 0.0;  ///< [m] of the grains that the fluid meets by a drag law
   BodyWork bodies;
   SlopeDrain drain;                    ///< of the grains that are there at once
   int dust_classes = 0;                ///< that the fluid carries as concentrations

@@ -64,6 +64,8 @@ TEST_CASE("engine check shall tell of resolved spheres how many cells and marker
   const std::string output = checked({}, 0);
   CHECK_MESSAGE(holds(output, "sphere: spheres of 8.4 mm are 8.4 cells across, 90 markers each"),
                 output);
+  // The grains beside it, of 1 mm and less, are what feels its own flow.
+  CHECK_MESSAGE(!holds(output, "own disturbance felt by grains of 8.4 mm"), output);
 }
 
 TEST_CASE("engine check shall refuse spheres that the grid does not resolve, and say what would") {

@@ -215,12 +215,13 @@ void print_disturbance_correction(std::ostream& out, const Setup& setup, const D
   namespace disturbance = coupling::self_disturbance;
   double finest = 0.0;
   double coarsest = 0.0;
+  const double largest = derived.largest_unresolved;
   for (const auto& size : classes) {
+    if (size.diameter > largest) break;
     if (!is_self_disturbance_corrected(setup, derived, size.diameter)) continue;
     if (finest == 0.0) finest = size.diameter;
     coarsest = size.diameter;
   }
-  const double largest = classes.back().diameter;
   if (coarsest > 0.0) {
     out << ",\n             own disturbance taken off for lone grains of "
         << engineering(finest, "m");

@@ -1,20 +1,26 @@
-"""Cases B1 to B4 of chapter 3 with a resolved sphere (ten Cate et al. 2002)."""
+"""Resolved spheres: cases B1 to B4 of chapter 3 (ten Cate et al. 2002), and two that sink one behind the other."""
 
+import dataclasses
 import math
 import statistics
+import sys
 
 from cases.settling_b import TEN_CATE
 from chart import Curve, published
-from runs import Plan, read_table
+from runs import ROOT, Plan, read_table
 
-TITLE = "Resolved spheres: cases B1 to B4, a sphere of 15 mm in silicone oil"
-BITS = ("settling_a1",)
+TITLE = "Resolved spheres: cases B1 to B4, a sphere of 15 mm in silicone oil; two spheres that draft, kiss and tumble"
+BITS = ("resolved_sphere",)
+READS_FRAMES = True
 DIAMETER, FALL = 0.015, 0.12  # [m]
 LARGEST = 0.03  # of the fall
+PAIR, PAIR_DIAMETER = "draft_kiss_tumble", 1.6667e-3  # [m]
+TOUCH = 0.02  # of a diameter between two surfaces
 
 
 def plans():
-    return [Plan(f"resolved_b{number}", f"thesis/settling_b{number}_resolved.yaml") for number in TEN_CATE]
+    return [Plan(f"resolved_b{number}", f"thesis/settling_b{number}_resolved.yaml") for number in TEN_CATE] + [
+        Plan(PAIR, "verification/draft_kiss_tumble.yaml")]
 
 
 def fill(page, runs):
@@ -40,10 +46,57 @@ def fill(page, runs):
                f"{1e3 * (between(times, gaps, 0.5) - between(times, gaps, 2.5)) / 2:.0f} mm/s, where the largest measured velocity is "
                f"{1e3 * math.prod(TEN_CATE[1]):.0f}: the figure's "
                "zero and its scale are no better known than that. Of B2 to B4 no table is at hand: their times stand above beside nothing.")
+    fill_pair(page, runs[PAIR])
     page.note("The sphere is 12 cells across; neither a drag law nor a rule of the void fraction is asked "
               "([theory](../theory/resolved.md)). The same cases with an unresolved sphere: [settling_b.md](settling_b.md).")
-    page.note("Cubic arrays of spheres in Stokes flow (Zick and Homsy 1982) are a test, V-ARRAY in tests/verification/resolved; its figures "
-              "stand in the theory.")
+    page.note("Cubic arrays of spheres in Stokes flow (Zick and Homsy 1982), one sphere in a stream at Re 20, 50 and 100, and films beside a wall and between "
+              "two spheres are tests, V-ARRAY, V-STREAM and V-FILM in tests/verification/resolved; their figures stand in the theory.")
+
+
+def fill_pair(page, run):
+    ways = pair_ways(run) if run.is_finished() else []
+    touch = run.read_off("results", "time of touch", lambda: first(ways, lambda w: w.gap < TOUCH))
+    level = run.read_off("results", "time side by side", lambda: first(ways, lambda w: w.angle > 90))
+    faster = run.read_off("results", "speeds before touch", lambda: (max(w.speeds for w in ways if w.time < touch[0]), None) if touch else None)
+    page.add("two spheres, draft: speed of the one behind over that of the one before it, the most before they touch", faster, "above 1", low=1.05)
+    page.add("two spheres, kiss: they touch after [s]", touch, "-", why="the time hangs on small errors in a fall of two that are alike; the order is what is held")
+    page.add("two spheres, tumble: side by side after [s]", level, "after the kiss", low=touch[0] if touch else None, band="later than the kiss")
+    page.chart("Two spheres that draft, kiss and tumble", "time [s]", "gap [diameters]; angle [90 deg]",
+               [Curve("gap between the surfaces", [w.time for w in ways], [w.gap for w in ways]),
+                Curve("angle of their centres from the vertical, in quarters of a turn", [w.time for w in ways], [w.angle / 90 for w in ways])],
+               "Above one quarter the sphere that was behind is the lower one. Order: Glowinski et al. (J. Comput. Phys. 169 (2001) 363).")
+
+
+@dataclasses.dataclass(frozen=True)
+class Way:
+    """Two spheres at an instant."""
+    time: float    # [s]
+    gap: float     # between their surfaces, in diameters
+    angle: float   # [deg] of the line from the one before to the one behind, from the vertical
+    speeds: float  # of the one behind over that of the one before
+
+
+def pair_ways(run):
+    sys.path.append(str(ROOT / "tools/python"))
+    import dust_results  # wants numpy and h5py, which nobody needs to list cases
+
+    results = dust_results.Run(run.folder)
+    ways = []
+    for n, time in enumerate(results.times):
+        grains = results.grains(n)
+        if len(grains["id"]) < 2:
+            continue
+        before, behind = (list(grains["id"]).index(number) for number in sorted(grains["id"]))
+        apart = grains["position"][behind] - grains["position"][before]
+        distance = math.dist(grains["position"][behind], grains["position"][before])
+        speeds = grains["velocity"][behind][2] / grains["velocity"][before][2] if grains["velocity"][before][2] < 0 else 1.0
+        ways.append(Way(float(time), distance / PAIR_DIAMETER - 1, math.degrees(math.acos(apart[2] / distance)), speeds))
+    return ways
+
+
+def first(ways, is_there):
+    at = next((w.time for w in ways if is_there(w)), None)
+    return (at, None) if at is not None else None
 
 
 def measured_gaps():
