@@ -56,15 +56,15 @@ def fill(page, runs):
 def fill_pair(page, run):
     ways = pair_ways(run) if run.is_finished() else []
     touch = run.read_off("results", "time of touch", lambda: first(ways, lambda w: w.gap < TOUCH))
-    level = run.read_off("results", "time side by side", lambda: first(ways, lambda w: w.angle > 90))
+    turned = run.read_off("results", "time of tumbling", lambda: first(ways, lambda w: w.angle > 45 and w.over_floor > 1))
     faster = run.read_off("results", "speeds before touch", lambda: (max(w.speeds for w in ways if w.time < touch[0]), None) if touch else None)
     page.add("two spheres, draft: speed of the one behind over that of the one before it, the most before they touch", faster, "above 1", low=1.05)
     page.add("two spheres, kiss: they touch after [s]", touch, "-", why="the time hangs on small errors in a fall of two that are alike; the order is what is held")
-    page.add("two spheres, tumble: side by side after [s]", level, "after the kiss", low=touch[0] if touch else None, band="later than the kiss")
+    page.add("two spheres, tumble: their line turned by 45 deg, more than a diameter over the floor, after [s]", turned, "after the kiss", low=touch[0] if touch else None, band="later than the kiss")
     page.chart("Two spheres that draft, kiss and tumble", "time [s]", "gap [diameters]; angle [90 deg]",
                [Curve("gap between the surfaces", [w.time for w in ways], [w.gap for w in ways]),
                 Curve("angle of their centres from the vertical, in quarters of a turn", [w.time for w in ways], [w.angle / 90 for w in ways])],
-               "Above one quarter the sphere that was behind is the lower one. Order: Glowinski et al. (J. Comput. Phys. 169 (2001) 363).")
+               "The floor is reached at the end. Order: Glowinski et al. (J. Comput. Phys. 169 (2001) 363).")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -74,6 +74,7 @@ class Way:
     gap: float     # between their surfaces, in diameters
     angle: float   # [deg] of the line from the one before to the one behind, from the vertical
     speeds: float  # of the one behind over that of the one before
+    over_floor: float  # gap between the lower one and the floor, in diameters
 
 
 def pair_ways(run):
@@ -90,7 +91,8 @@ def pair_ways(run):
         apart = grains["position"][behind] - grains["position"][before]
         distance = math.dist(grains["position"][behind], grains["position"][before])
         speeds = grains["velocity"][behind][2] / grains["velocity"][before][2] if grains["velocity"][before][2] < 0 else 1.0
-        ways.append(Way(float(time), distance / PAIR_DIAMETER - 1, math.degrees(math.acos(apart[2] / distance)), speeds))
+        ways.append(Way(float(time), distance / PAIR_DIAMETER - 1, math.degrees(math.acos(apart[2] / distance)), speeds,
+                        min(grains["position"][:, 2]) / PAIR_DIAMETER - 0.5))
     return ways
 
 
