@@ -2,6 +2,7 @@
 #include "preflight/emissions.hpp"
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "dust/sdk/random.hpp"
 #include "dust/sdk/sphere.hpp"
 #include "preflight/journey.hpp"
@@ -192,6 +193,21 @@ bool brings_too_many(const Setup& setup, const EmitterSpec& spec, const sdk::Emi
   return mass > 0.0 && request.mass_flow / mass * setup.time.fluid_step > k_too_many;
 }
 
+void check_numbers(const Setup& setup, const ParticleModels& models,
+                   scenario::Diagnostics& diagnostics) {
+  for (std::size_t n = 0; n < models.emitters.size(); ++n) {
+    const EmitterSpec& spec = setup.emitters[n];
+    if (!brings_too_many(setup, spec, *models.emitters[n])) continue;
+    const auto request = models.emitters[n]->request();
+    const double per_second = request.mass_flow / mean_mass(request, density_of(setup, spec));
+    diagnostics.warning(
+        spec.model.where,
+        spec.model.path + ": brings some " + base::exponent_text(per_second, 1) +
+            " grains a second, and a run of millions in all takes days: give larger sizes, "
+            "a coarse_graining of its material, or the fine ones as dust.field");
+  }
+}
+
 std::vector<sdk::InsertionRequest> proposals(const Setup& setup, const EmitterSpec& spec,
                                              sdk::Emitter& emitter, std::size_t enough) {
   const auto request = emitter.request();
@@ -211,6 +227,8 @@ std::vector<std::vector<sdk::InsertionRequest>> first_grains(const Setup& setup,
     const bool is_soon_placed =
         has_fillings && request.mass == 0.0 && request.count <= k_soon_placed;
     if (!emitter.insertion_rule().waits && !is_soon_placed) continue;
+    // Nobody could let so many in, and to look at the first of them takes as long as that.
+    if (brings_too_many(setup, setup.emitters[n], emitter)) continue;
     all[n] = proposals(setup, setup.emitters[n], emitter);
   }
   return all;

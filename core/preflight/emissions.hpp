@@ -4,6 +4,7 @@
 #include "bodies/body_set.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "preflight/particle_models.hpp"
+#include "scenario/diagnostics.hpp"
 #include "setup/setup.hpp"
 
 #include <cstddef>
@@ -44,6 +45,10 @@ struct EmissionNumbers {
 /// look takes long.
 bool brings_too_many(const scenario::Setup& setup, const scenario::EmitterSpec& spec,
                      const sdk::Emitter& emitter);
+
+/// Warns of such streams.
+void check_numbers(const scenario::Setup& setup, const ParticleModels& models,
+                   scenario::Diagnostics& diagnostics);
 
 /// As many tell what a stream is like.
 inline constexpr std::size_t k_many_proposals = 20000;

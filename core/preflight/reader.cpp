@@ -37,6 +37,7 @@ void check_sides(const scenario::Setup& setup, const registry::Registry& registr
 void check_places(const scenario::ReadResult& read, const registry::Registry& registry,
                   scenario::Diagnostics& diagnostics) {
   ParticleModels models = make_particle_models(read.setup, registry);
+  check_numbers(read.setup, models, diagnostics);
   const auto first = first_grains(read.setup, models, has_openings(read.setup, read.dust));
   check_suctions(read.setup, models, diagnostics);
   check_suction_covers(read.setup, models, diagnostics);

@@ -514,3 +514,14 @@ TEST_CASE("cells of a sensor beyond all memory shall be refused with their numbe
                   "cells: [1000, 1000, 1000]}"}},
                 {"sensors.pressed: ", "'cells' makes 1000000000 cells", "at most 10000000"}) == "");
 }
+
+TEST_CASE(
+    "a stream of more grains than anybody could follow shall be told at once, and not tried") {
+  // Half of the mass in grains of 15 um: their placing for a look took all memory.
+  const test::Said all = said({{"emitters.feed.diameters", "[15 um, 4 mm]"},
+                               {"emitters.feed.mass_fractions", "[0.5, 0.5]"}});
+  CHECK(all.errors == std::vector<std::string>{});
+  CHECK(std::any_of(all.warnings.begin(), all.warnings.end(), [](const std::string& line) {
+    return line.find("emitters.feed: brings some 1.1e+11 grains a second") != std::string::npos;
+  }));
+}
