@@ -60,11 +60,11 @@ def fill_pair(page, run):
     faster = run.read_off("results", "speeds before touch", lambda: (max(w.speeds for w in ways if w.time < touch[0]), None) if touch else None)
     page.add("two spheres, draft: speed of the one behind over that of the one before it, the most before they touch", faster, "above 1", low=1.05)
     page.add("two spheres, kiss: they touch after [s]", touch, "-", why="the time hangs on small errors in a fall of two that are alike; the order is what is held")
-    page.add("two spheres, tumble: their line turned by 45 deg, more than a diameter over the floor, after [s]", turned, "after the kiss", low=touch[0] if touch else None, band="later than the kiss")
+    page.add("two spheres, tumble: their line turned by 45 deg, more than a diameter over the floor, after [s]", turned, "after the kiss", low=touch[0] if touch else 0.0, band="later than the kiss")
     page.chart("Two spheres that draft, kiss and tumble", "time [s]", "gap [diameters]; angle [90 deg]",
                [Curve("gap between the surfaces", [w.time for w in ways], [w.gap for w in ways]),
                 Curve("angle of their centres from the vertical, in quarters of a turn", [w.time for w in ways], [w.angle / 90 for w in ways])],
-               "The floor is reached at the end. Order: Glowinski et al. (J. Comput. Phys. 169 (2001) 363).")
+               "Above one quarter the sphere that was behind is the lower one. Order: Glowinski et al. (J. Comput. Phys. 169 (2001) 363).")
 
 
 @dataclasses.dataclass(frozen=True)
