@@ -379,6 +379,12 @@ class Emitter final : public Guarded<sdk::Emitter> {
     for (std::size_t n = before; n < requests.size(); ++n) {
       const sdk::InsertionRequest& s = requests[n];
       check(s, n - before, requests.size() - before);
+      // An empty interval asks for what comes at that moment.
+      if (s.time == context.begin || (s.time > context.begin && s.time < context.end)) continue;
+      faults().refuse(
+          "gives time = " + base::digits_text(s.time, 6), n - before, requests.size() - before, {},
+          "a time from " + base::digits_text(context.begin, 6) + " s on and before " +
+              base::digits_text(context.end, 6) + " s, the interval that it was asked for");
     }
   }
   [[nodiscard]] double requested_mass_flow() const override {
@@ -421,17 +427,20 @@ class Emitter final : public Guarded<sdk::Emitter> {
     if (!known_) known_ = Known{diameters(), materials().size()};
     // Steps, searches and levels are laid out for the sizes that were announced.
     constexpr double k_rounding = 1e-9;
+    const double smallest = known_->diameters.empty() ? 0.0 : known_->diameters.front();
     const double largest = known_->diameters.empty() ? 0.0 : known_->diameters.back();
-    if (!(s.diameter > 0.0 && s.diameter <= largest * (1.0 + k_rounding))) {
+    if (!(s.diameter > 0.0 && s.diameter >= smallest * (1.0 - k_rounding) &&
+          s.diameter <= largest * (1.0 + k_rounding))) {
       faults().refuse("gives diameter = " + base::digits_text(s.diameter, 6), row, count, {},
-                      "a diameter above 0 and up to the largest of diameters(), " +
-                          base::digits_text(largest, 6) + " m");
+                      "one of its diameters(), which go from " + base::digits_text(smallest, 6) +
+                          " to " + base::digits_text(largest, 6) + " m");
     }
     if (!(s.weight > 0.0)) {
       faults().refuse("gives weight = " + base::digits_text(s.weight, 6), row, count, {},
                       "a weight above 0");
     }
-    if (s.material >= 0 && static_cast<std::size_t>(s.material) >= known_->materials) {
+    if (s.material < -1 ||
+        (s.material >= 0 && static_cast<std::size_t>(s.material) >= known_->materials)) {
       faults().refuse("gives material = " + std::to_string(s.material), row, count, {},
                       "an index into its " + std::to_string(known_->materials) +
                           " materials(), or -1 for the emitter's own");
@@ -470,6 +479,11 @@ class Motion final : public Guarded<sdk::Motion> {
                        p.axis.x + p.axis.y + p.axis.z + p.angle + p.velocity.x + p.velocity.y +
                        p.velocity.z + p.angular_velocity;
     if (!base::is_finite(sum)) faults().refuse_number("pose", sum, 0, 1, {{"time", &time}});
+    constexpr double k_rounding = 1e-9;
+    if ((p.angle != 0.0 || p.angular_velocity != 0.0) &&
+        std::abs(norm(p.axis) - 1.0) > k_rounding) {
+      faults().refuse_answer("pose", norm(p.axis), "an axis of the length 1 of a pose that turns");
+    }
     return p;
   }
   [[nodiscard]] double largest_angular_velocity() const override {

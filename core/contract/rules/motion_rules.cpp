@@ -103,6 +103,9 @@ void check_pose(const Maker& make) {
     const double time = 5e-4 * n;
     const sdk::RigidPose a = motion->pose(time);
     const sdk::RigidPose b = motion->pose(time + k_step);
+    require(a.angle == 0.0 || std::abs(norm(a.axis) - 1.0) < 1e-9,
+            "the axis of its pose at " + shown(time) + " s is " + shown(norm(a.axis)) +
+                " long; expected: 1");
     const Vec3 went = (b.shift - a.shift) / k_step;
     const double turned = (b.angle - a.angle) / k_step;
     const Vec3 reported = 0.5 * (a.velocity + b.velocity);

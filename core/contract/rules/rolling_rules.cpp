@@ -88,7 +88,10 @@ void check_brakes(const Maker& make) {
 void check_rest(const Maker& make) {
   const auto law = make_law(make);
   std::vector<Touch> contacts = standard_contacts(0.0, 0);
-  for (Touch& t : contacts) t.angular_velocity = {};
+  for (Touch& t : contacts) {
+    t.angular_velocity = {};
+    t.share_i = 0.5;  // the force turns unequal sides unequally, which a law may reckon with
+  }
   ContactBench bench(contacts.size(), law->history_size());
   for (int look = 0; look < 3; ++look) {
     bench.show(contacts, k_step, {}, true);

@@ -28,6 +28,11 @@ void check_symmetry(RuleRunner& runner, const std::string& what, const ShowConta
     std::vector<Vec3> other = show(true, [](auto t) { return swapped(std::move(t)); });
     for (Vec3& v : other) v = -v;
     check_close(show(false, same), other, "seen from the other side the " + what);
+    // Which of two grains is side i has nothing to do with the order that prepare() was told.
+    other = show(false, [](auto t) { return swapped(std::move(t)); });
+    for (Vec3& v : other) v = -v;
+    check_close(show(false, same), other,
+                "with the sides changed and prepare() told the materials as before the " + what);
   });
   runner.rule("knows no preferred direction", [&] {
     std::vector<Vec3> here = show(false, same);

@@ -71,6 +71,7 @@ std::vector<Touch> standard_contacts(double range, int look) {
     t.angular_velocity = 100.0 * direction(9);
     t.normal_force = (n % 8 == 1 ? -1.0 : 1.0) * 1e-3 * draw(11);
     t.stiffness = 1000.0 * draw(12);
+    t.share_i = 0.2 + 0.6 * draw(13);
     contacts.push_back(t);
   }
   return contacts;
@@ -81,6 +82,7 @@ std::vector<Touch> swapped(std::vector<Touch> contacts) {
     t.normal = -t.normal;
     t.velocity = -t.velocity;
     t.angular_velocity = -t.angular_velocity;
+    t.share_i = 1.0 - t.share_i;
   }
   return contacts;
 }
@@ -119,15 +121,28 @@ void ContactBench::show(const std::vector<Touch>& contacts, double time_step, co
     const Touch& t = contacts[n % contacts.size()];
     const Vec3 displacement = t.displacement.value_or(time_step * t.velocity);
     const Vec3 angle = t.angle.value_or(time_step * t.angular_velocity);
-    const double row[k_inputs] = {t.overlap * length, t.normal.x, t.normal.y, t.normal.z,
-                                  t.velocity.x * speed, t.velocity.y * speed, t.velocity.z * speed,
-                                  t.angular_velocity.x * turning, t.angular_velocity.y * turning,
-                                  t.angular_velocity.z * turning, displacement.x * length,
-                                  displacement.y * length, displacement.z * length, angle.x,
-                                  angle.y, angle.z, t.radius * length, t.mass * units.mass,
-                                  // Two equal ones.
-                                  2.0 * t.radius * length, 2.0 * t.radius * length,
-                                  0.5 / (t.mass * units.mass), 0.5 / (t.mass * units.mass)};
+    const double row[k_inputs] = {t.overlap * length,
+                                  t.normal.x,
+                                  t.normal.y,
+                                  t.normal.z,
+                                  t.velocity.x * speed,
+                                  t.velocity.y * speed,
+                                  t.velocity.z * speed,
+                                  t.angular_velocity.x * turning,
+                                  t.angular_velocity.y * turning,
+                                  t.angular_velocity.z * turning,
+                                  displacement.x * length,
+                                  displacement.y * length,
+                                  displacement.z * length,
+                                  angle.x,
+                                  angle.y,
+                                  angle.z,
+                                  t.radius * length,
+                                  t.mass * units.mass,
+                                  t.radius / t.share_i * length,
+                                  t.radius / (1.0 - t.share_i) * length,
+                                  t.share_i / (t.mass * units.mass),
+                                  (1.0 - t.share_i) / (t.mass * units.mass)};
     for (int c = 0; c < k_inputs; ++c) column(c)[n] = row[c];
     for (int c = 0; c < k_outputs; ++c) {
       column(k_inputs + c)[n] = std::numeric_limits<double>::quiet_NaN();

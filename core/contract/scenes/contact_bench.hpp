@@ -24,7 +24,9 @@ inline sdk::MaterialProperties material(bool is_second, const Units& units) {
 struct Touch {
   double overlap = 0.0;
   sdk::Vec3 normal, velocity, angular_velocity;
-  double radius = 0.0, mass = 0.0;
+  double radius = 0.0, mass = 0.0;  // R*, m*
+  /// Of R* over the radius of side i, and of m* over its mass; the other side has the rest.
+  double share_i = 0.5;
   double normal_force = 0.0, stiffness = 0.0;  ///< inputs of the rolling stage
   /// Since the last look; without them that of a straight course over the time step.
   std::optional<sdk::Vec3> displacement, angle;

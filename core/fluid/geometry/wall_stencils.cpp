@@ -204,11 +204,24 @@ bool GeometryBuilder::interpolation(int d, Vec3 p, GhostFace& ghost) const {
   for (int dir = 0; dir < 3; ++dir) {
     if (grid_.count[dir] == 1 && dir != d) continue;
     const double x = (p[dir] - grid_.origin[dir]) / grid_.spacing[dir] - (dir == d ? 0.0 : 0.5);
+    if (sides_.is_periodic[dir] && grid_.count[dir] > 1) {
+      base[dir] = static_cast<int>(std::floor(x));
+      share[dir] = x - base[dir];
+      continue;
+    }
     const int last = g_.extent[d][dir] - 1;
     const double clamped = std::clamp(x, 0.0, static_cast<double>(last));
     base[dir] = std::min(static_cast<int>(clamped), std::max(0, last - 1));
     share[dir] = last > 0 ? clamped - base[dir] : 0.0;
   }
+  // Beyond a periodic side the nodes are those at the other end.
+  const auto index_of = [this](std::array<int, 3> c) {
+    for (int dir = 0; dir < 3; ++dir) {
+      const int count = grid_.count[dir];
+      if (sides_.is_periodic[dir]) c[dir] = (c[dir] % count + count) % count;
+    }
+    return grid_.index(c[0], c[1], c[2]);
+  };
   for (int corner = 0; corner < 8; ++corner) {
     double weight = 1.0;
     std::array<int, 3> c = base;
@@ -217,8 +230,7 @@ bool GeometryBuilder::interpolation(int d, Vec3 p, GhostFace& ghost) const {
       weight *= high ? share[dir] : 1.0 - share[dir];
       c[dir] += high;
     }
-    const std::ptrdiff_t o =
-        weight > 0.0 ? grid_.index(c[0], c[1], c[2]) : grid_.index(base[0], base[1], base[2]);
+    const std::ptrdiff_t o = index_of(weight > 0.0 ? c : base);
     if (weight > 1e-12 && g_.kind[d][o] == FaceKind::inside) return false;
     ghost.node[corner] = static_cast<std::int32_t>(o);
     ghost.weight[corner] = weight;

@@ -40,14 +40,19 @@ void check_reach(const scenario::Setup& setup, const ParticleModels& models,
   for (int d = 0; d < 3; ++d) check_period(setup, models, d, diagnostics);
   const double smallest = models.class_diameters.front();
   for (std::size_t n = 0; n < models.laws.size(); ++n) {
-    const double reach = models.laws[n].range_of(0.25 * smallest);
-    const auto& cohesion = setup.interactions[n].cohesion;
-    if (!(reach > smallest) || !cohesion) continue;
-    diagnostics.warning(cohesion->where,
-                        cohesion->path + ": reaches " + base::length_text(reach) +
-                            " beyond touch, farther than the smallest grains are thick (" +
-                            base::length_text(smallest) +
-                            "); is the unit of what sets its reach right?");
+    const auto warn = [&](const scenario::ModelChoice& law, double reach) {
+      if (!(reach > smallest)) return;
+      diagnostics.warning(law.where, law.path + ": reaches " + base::length_text(reach) +
+                                         " beyond touch, farther than the smallest grains are "
+                                         "thick (" +
+                                         base::length_text(smallest) +
+                                         "); is the unit of what sets its reach right?");
+    };
+    const particles::PairLaws& laws = models.laws[n];
+    warn(setup.interactions[n].contact, laws.contact->range());
+    if (laws.cohesion) {
+      warn(*setup.interactions[n].cohesion, laws.cohesion->range(0.25 * smallest));
+    }
   }
 }
 

@@ -36,7 +36,10 @@ std::vector<std::string> known_hoods(Reading& reading, const Node& node,
                                      const std::vector<std::string>& hoods) {
   std::vector<std::string> able;
   for (const BodySpec& body : reading.setup.bodies) {
-    if (body.suction) able.push_back(body.name);
+    if (!body.suction) continue;
+    const auto& factors = body.suction->factors;
+    const double most = factors.empty() ? 1.0 : *std::max_element(factors.begin(), factors.end());
+    if (body.suction->flow * most > 0.0) able.push_back(body.name);
   }
   for (const SideOpeningSpec& opening : reading.dust.openings) {
     able.emplace_back(k_side_names[static_cast<std::size_t>(opening.side)]);
@@ -46,11 +49,11 @@ std::vector<std::string> known_hoods(Reading& reading, const Node& node,
     if (std::find(able.begin(), able.end(), hoods[n]) != able.end()) {
       known.push_back(hoods[n]);
     } else if (!reading.names.bodies.is_disabled(hoods[n])) {
-      reading.error(
-          mark_of_item(node, "hoods", n),
-          path_of_item("hoods", n) + scenario::in_quotes(hoods[n]) +
-              " extracts nothing: a hood is a body with suction or a side whose air draws out" +
-              (able.empty() ? std::string() : suggestion(hoods[n], able, "there are")));
+      reading.error(mark_of_item(node, "hoods", n),
+                    path_of_item("hoods", n) + scenario::in_quotes(hoods[n]) +
+                        " extracts nothing: a hood is a body with suction, of a flow above 0, or a "
+                        "side whose air draws out" +
+                        (able.empty() ? std::string() : suggestion(hoods[n], able, "there are")));
     }
   }
   return known;

@@ -228,6 +228,9 @@ void read_emitters(Reading& reading, MapReader& top) {
     if (model.model) {
       for (const auto& name : static_cast<const sdk::Emitter&>(*model.model).materials()) {
         more.push_back(reading.names.materials.index(name));
+        if (more.back() >= 0) continue;
+        reading.error(entry.where, path + ": its grains are of the material '" + name +
+                                       "', and there is none of that name under materials");
       }
       reading.emitters.push_back(std::move(model.model));
     }

@@ -80,6 +80,11 @@ TEST_CASE("a suction whose box holds no part of its body shall be refused with f
     }
     return std::string();
   };
+  // One that sucks nothing, or blows, catches no dust.
+  for (const char* flow : {"0 l/s", "-10 l/s"}) {
+    CHECK(message_of({{"bodies.hood.suction.flow", flow}, {"dust", "{hoods: [hood]}"}})
+              .find("dust.hoods[0]: 'hood' extracts nothing") != std::string::npos);
+  }
   // 0.2 m below the body.
   const std::string below = message_of(
       {{"bodies.hood.suction", "{flow: 10 l/s, min: [0.3, 0, 0.5 m], max: [0.7, 0.2, 0.5 m]}"}});

@@ -196,6 +196,7 @@ struct Emitter final : Trial<sdk::Emitter> {
     request.diameter = deed(what, diameter);
     request.weight = weight;
     request.material = material;
+    request.time = time;
     requests.push_back(request);
   }
   double requested_mass_flow() const override { return 1.0; }
@@ -208,7 +209,7 @@ struct Emitter final : Trial<sdk::Emitter> {
   }
   sdk::InsertionRule insertion_rule() const override { return {false, 0.5}; }
   std::vector<std::string> materials() const override { return {"sand"}; }
-  double diameter = 1e-3, weight = 1.0;
+  double diameter = 1e-3, weight = 1.0, time = 0.0;
   std::int32_t material = 0;
 };
 
@@ -222,9 +223,11 @@ struct Motion final : Trial<sdk::Motion> {
   sdk::RigidPose pose(double time) const override {
     sdk::RigidPose p;
     p.angle = deed(what, 2 * time);
+    p.axis = axis;
     return p;
   }
   double largest_angular_velocity() const override { return 4.0; }
+  sdk::Vec3 axis{0, 0, 1};
 };
 
 struct Sensor final : Trial<sdk::Sensor> {
@@ -560,14 +563,35 @@ TEST_CASE("grains that an emitter has not announced shall be said_of as its own"
   CHECK(said_of([](Emitter&) {}).empty());
   CHECK(said_of([](Emitter& e) { e.diameter = 2e-3; }) ==
         "emitter/trial (/x/trial.so) gives diameter = 0.002" + row +
-            "a diameter above 0 and up to the largest of diameters(), 0.001 m");
+            "one of its diameters(), which go from 0.001 to 0.001 m");
+  CHECK(said_of([](Emitter& e) { e.diameter = 5e-4; }).find("gives diameter = 0.0005") !=
+        std::string::npos);
   CHECK(said_of([](Emitter& e) { e.diameter = 0.0; }).find("gives diameter = 0 in") !=
         std::string::npos);
   CHECK(said_of([](Emitter& e) { e.weight = 0.0; }) ==
         "emitter/trial (/x/trial.so) gives weight = 0" + row + "a weight above 0");
+  CHECK(said_of([](Emitter& e) { e.material = -2; }).find("gives material = -2") !=
+        std::string::npos);
+  CHECK(said_of([](Emitter& e) { e.time = 1.0; }) ==
+        "emitter/trial (/x/trial.so) gives time = 1" + row +
+            "a time from 0 s on and before 0 s, the interval that it was asked for");
   CHECK(said_of([](Emitter& e) { e.material = 1; }) ==
         "emitter/trial (/x/trial.so) gives material = 1" + row +
             "an index into its 1 materials(), or -1 for the emitter's own");
+}
+
+TEST_CASE("a pose that turns about an axis of another length than 1 shall be the motion's fault") {
+  const auto said_of = [](sdk::Vec3 axis, double time) {
+    return said([&] {
+      static_cast<void>(guard_with<Motion>([&](Motion& m) { m.axis = axis; })->pose(time));
+    });
+  };
+  CHECK(said_of({0, 1, 0}, 0.5).empty());
+  CHECK(said_of({0, 2, 0}, 0.0).empty());  // it does not turn yet
+  CHECK(said_of({0, 2, 0}, 0.5) ==
+        "motion/trial (/x/trial.so) answers 2 to pose; expected: an axis of the length 1 of a pose "
+        "that turns");
+  CHECK(said_of({}, 0.5).find("answers 0 to pose") != std::string::npos);
 }
 
 TEST_CASE("a crash shall be reported with the guarded model that is asked, and no longer") {

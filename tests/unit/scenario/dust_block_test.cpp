@@ -97,8 +97,8 @@ TEST_CASE("openings of the dust block shall be refused for the role of a sensor"
 
 TEST_CASE("hoods that are none shall be told with what there is") {
   check("dust: {finer_than: 1 mm, hoods: [top]}\n",
-        "dust.hoods[0]: 'top' extracts nothing: a hood is a body with suction or a side whose air "
-        "draws out");
+        "dust.hoods[0]: 'top' extracts nothing: a hood is a body with suction, of a flow above 0, "
+        "or a side whose air draws out");
   check("dust: {materials: [sans]}\n", "dust.materials[0]: there is no material 'sans'");
 }
 

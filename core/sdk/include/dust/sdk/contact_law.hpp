@@ -85,8 +85,11 @@ class ContactLaw : public Model {
  public:
   static constexpr const char* k_kind = "contact";
 
-  /// Called once with the two materials before any batch.
+  /// Called once with the two materials before any batch, in the order in which the scenario names
+  /// them. That order has nothing to do with the sides of a batch: i of a contact may be of either
+  /// material. So a law has to give the same in both orders, as effective_young_modulus() does.
   virtual void prepare(const MaterialProperties& i, const MaterialProperties& j) = 0;
+  /// At most 16, and at most 24 with those of the rolling and the cohesive law of the same pair.
   [[nodiscard]] virtual int history_size() const = 0;
   virtual void evaluate(const ContactBatch& batch) const = 0;
 
@@ -109,6 +112,7 @@ class RollingLaw : public Model {
  public:
   static constexpr const char* k_kind = "rolling";
 
+  /// As ContactLaw::prepare().
   virtual void prepare(const MaterialProperties& i, const MaterialProperties& j) = 0;
   [[nodiscard]] virtual int history_size() const = 0;
   virtual void evaluate(const ContactBatch& batch) const = 0;

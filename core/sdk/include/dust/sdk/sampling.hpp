@@ -213,7 +213,7 @@ class BatchMeans {
   [[nodiscard]] double error(
       std::size_t column, double most_independent = std::numeric_limits<double>::infinity()) const {
     return error_of([&](std::size_t b) { return batch_mean(b, column); }, mean(column),
-                    most_independent);
+                    mean(column), most_independent);
   }
   /// Standard error of mean(top) / mean(base), in the unit of that ratio \f$ R \f$: that of the
   /// mean of the residuals \f$ x_{top} - R\, x_{base} \f$ over mean(base) (Cochran 1977, Sampling
@@ -225,7 +225,7 @@ class BatchMeans {
     const double ratio = mean(top) / below;
     const double error =
         error_of([&](std::size_t b) { return batch_mean(b, top) - ratio * batch_mean(b, base); },
-                 mean(top), std::numeric_limits<double>::infinity());
+                 0.0, mean(top), std::numeric_limits<double>::infinity());
     return error < 0.0 ? error : error / std::abs(below);
   }
   /// Whether a column that counts something grows evenly: its sum, batch by batch, is nowhere
@@ -336,13 +336,19 @@ class BatchMeans {
   [[nodiscard]] double deviation_of(const Spread& spread) const {
     return std::sqrt(spread.squares / (static_cast<double>(durations_.size()) - 1.0));
   }
-  /// See error(); a drift is small against `size`.
+  /// See error(); `expected` is the mean of the value over all, a drift is small against `size`.
   template <class Value>
-  [[nodiscard]] double error_of(const Value& value, double size, double most_independent) const {
+  [[nodiscard]] double error_of(const Value& value, double expected, double size,
+                                double most_independent) const {
     const std::size_t batches = durations_.size();
     if (batches < k_min_batches) return k_no_estimate;
     const auto n = static_cast<double>(batches);
     const Spread spread = spread_of(value);
+    // Batches that all say the same, and then something came: nobody knows how often it does.
+    constexpr double k_rounding = 1e-9;
+    if (spread.squares == 0.0 && std::abs(value(0) - expected) > k_rounding * std::abs(size)) {
+      return k_not_steady;
+    }
     const double variance = spread.squares / (n * (n - 1.0));
     double independent = n;
     const double memory =
