@@ -82,6 +82,14 @@ TEST_CASE("engine check shall refuse spheres that the grid does not resolve, and
   CHECK_MESSAGE(holds(light, "0.5 of the fluid's density"), light);
 }
 
+TEST_CASE("engine check shall warn of flat cells round a resolved sphere") {
+  const std::string flat =
+      checked({"fluid.cells=[26, 26, 39]", "emitters.grains.diameters=[0.3 mm]"}, 0);
+  CHECK_MESSAGE(holds(flat, "resolved_sphere.yaml:40:"), flat);
+  CHECK_MESSAGE(holds(flat, "warning: coupling.resolved: cells are 1.5 times as long"), flat);
+  CHECK_FALSE(holds(checked({"fluid.cells=[26, 26, 30]"}, 0), "times as long as wide"));
+}
+
 TEST_CASE("engine check shall refuse a fluid step that is too long for a resolved sphere's film") {
   // Cells of 1 mm, steps of 1 ms, 1000 kg/m3: 1 per Pa s.
   CHECK_FALSE(holds(checked({"fluid.viscosity=1 Pa s"}, 0), "fluid_step / (density"));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace dust::scenario {
@@ -27,6 +28,8 @@ constexpr double k_longest_way = 1.0;
 /// with a spin has more inertia than itself.
 constexpr double k_longest_way_of_light = 0.6;
 constexpr double k_light = 1.05;
+/// Edges of cells over each other up to which drag is that in cubes within a per cent.
+constexpr double k_nearly_cubes = 1.2;
 
 std::vector<int> materials_of(const EmitterSpec& emitter) {
   std::vector<int> all = emitter.more_materials;
@@ -109,9 +112,20 @@ void check_resolved(Reading& reading) {
   const FluidSpec& fluid = *reading.setup.fluid;
   check_step(reading, fluid);
   double spacing = 0.0;
+  double finest = std::numeric_limits<double>::infinity();
   for (int d = 0; d < 3; ++d) {
     const double width = reading.setup.domain.max[d] - reading.setup.domain.min[d];
-    spacing = std::max(spacing, width / fluid.cells[static_cast<std::size_t>(d)]);
+    const double here = width / fluid.cells[static_cast<std::size_t>(d)];
+    spacing = std::max(spacing, here);
+    finest = std::min(finest, here);
+  }
+  if (spacing > k_nearly_cubes * finest) {
+    reading.diagnostics.warning(
+        fluid.resolved_where, "coupling.resolved: cells are " +
+                                  number_text(std::round(100.0 * spacing / finest) / 100.0) +
+                                  " times as long as wide: the drag of a resolved sphere depends "
+                                  "on its direction by some "
+                                  "per cent then (docs/theory/resolved.md, section 5); take cubes");
   }
   for (const int material : fluid.resolved) {
     const MaterialSpec& m = reading.setup.materials[static_cast<std::size_t>(material)];
