@@ -104,13 +104,10 @@ void read_resolved(Reading& reading, const CouplingBlock& coupling, const Entry*
   refuse(fluid.momentum_set == "III", "fluid.momentum_set III");
 }
 
-/// Sizes and densities of the grains that are to be resolved.
-void check_resolved(Reading& reading) {
-  if (!reading.setup.fluid || reading.setup.fluid->resolved.empty() ||
-      reading.diagnostics.has_errors())
-    return;
-  const FluidSpec& fluid = *reading.setup.fluid;
-  check_step(reading, fluid);
+namespace {
+
+/// Warns of flat cells; returns their longest edge [m].
+double check_cells(Reading& reading, const FluidSpec& fluid) {
   double spacing = 0.0;
   double finest = std::numeric_limits<double>::infinity();
   for (int d = 0; d < 3; ++d) {
@@ -127,6 +124,19 @@ void check_resolved(Reading& reading) {
                                   "on its direction by some "
                                   "per cent then (docs/theory/resolved.md, section 5); take cubes");
   }
+  return spacing;
+}
+
+}  // namespace
+
+/// Sizes and densities of the grains that are to be resolved.
+void check_resolved(Reading& reading) {
+  if (!reading.setup.fluid || reading.setup.fluid->resolved.empty() ||
+      reading.diagnostics.has_errors())
+    return;
+  const FluidSpec& fluid = *reading.setup.fluid;
+  check_step(reading, fluid);
+  const double spacing = check_cells(reading, fluid);
   for (const int material : fluid.resolved) {
     const MaterialSpec& m = reading.setup.materials[static_cast<std::size_t>(material)];
     if (m.coarse_graining != 1.0) {
