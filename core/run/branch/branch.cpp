@@ -333,15 +333,13 @@ void Branch::give_to(Simulation& simulation) {
       diagnostics_.throw_errors();
       transfer(to);
     });
-    note_changed_emitters(simulation.insertion());
-    note_beginnings(simulation);
+    note_counts(simulation);
     simulation.begin_sensors(sensors_going_on_);
     simulation.begin_dust_figures();
     return;
   }
   origin_.state().read(simulation.load_parts());
-  note_changed_emitters(simulation.insertion());
-  note_beginnings(simulation);
+  note_counts(simulation);
   simulation.begin_dust_figures();
   report_.particles = simulation.dem().balance().in_domain;
   report_.contacts = simulation.dem().report().contacts;
@@ -429,15 +427,19 @@ void Branch::transfer_insertion(const Simulation::Owners& to) {
   }
 }
 
-void Branch::note_changed_emitters(const Insertion& insertion) {
+void Branch::note_counts(const Simulation& simulation) {
+  const Past past = load_past(origin_.state());
+  const CountsBefore then = past.start ? past.start->before : CountsBefore{};
+  note_changed_emitters(then, simulation.insertion());
+  note_beginnings(then, simulation);
+}
+
+void Branch::note_changed_emitters(const CountsBefore& then, const Insertion& insertion) {
   auto& changed = before_.changed_emitters;
-  if (const auto past = load_past(origin_.state()); past.start) {
-    const CountsBefore& then = past.start->before;
-    std::vector<std::string> names = then.new_emitters;
-    for (const auto& emitter : then.changed_emitters) names.push_back(emitter.name);
-    for (const std::string& name : names) {
-      if (base::find_named(changed, name) == nullptr) changed.push_back({.name = name});
-    }
+  std::vector<std::string> names = then.new_emitters;
+  for (const auto& emitter : then.changed_emitters) names.push_back(emitter.name);
+  for (const std::string& name : names) {
+    if (base::find_named(changed, name) == nullptr) changed.push_back({.name = name});
   }
   std::erase_if(changed, [&](const CountsBefore::ChangedEmitter& emitter) {
     return base::find_named(now_.setup.emitters, emitter.name) == nullptr;
@@ -448,11 +450,9 @@ void Branch::note_changed_emitters(const Insertion& insertion) {
   }
 }
 
-void Branch::note_beginnings(const Simulation& simulation) {
+void Branch::note_beginnings(const CountsBefore& then, const Simulation& simulation) {
   const CountedSince now = {origin_.time(), simulation.dem().balance().mass_emitted,
                             dust_so_far(simulation)};
-  const auto past = load_past(origin_.state());
-  const CountsBefore then = past.start ? past.start->before : CountsBefore{};
   before_.field = is_field_new_ ? now : then.field;
   before_.loads = are_loads_new_ ? now : then.loads;
   const auto there = openings_of(origin_.scenario().setup, origin_.scenario().dust);

@@ -71,9 +71,11 @@ class Branch {
                                         const scenario::EmitterSpec& theirs) const;
   /// Those whose settings are not, or had not been, the same since the very beginning: what they
   /// had brought by now was not asked for by these.
-  void note_changed_emitters(const Insertion& insertion);
+  void note_changed_emitters(const CountsBefore& then, const Insertion& insertion);
   /// Counts that begin here, and those that had begun in the other run or before it.
-  void note_beginnings(const Simulation& simulation);
+  void note_beginnings(const CountsBefore& then, const Simulation& simulation);
+  /// Both, after all has been given.
+  void note_counts(const Simulation& simulation);
   void report_obstacles(const particles::TransferObstacles& obstacles);
   [[nodiscard]] bool same(std::string_view path,
                           std::span<const std::string_view> ignored = {}) const;

@@ -37,14 +37,24 @@ std::vector<int> materials_of(const EmitterSpec& emitter) {
   return all;
 }
 
-/// The viscous way of a step, in cells squared.
-void check_step(Reading& reading, const FluidSpec& fluid) {
-  double finest = 0.0;
+/// Of the edges of a cell [m].
+struct Edges {
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0.0;
+};
+Edges edges_of(const Reading& reading, const FluidSpec& fluid) {
+  Edges edges;
   for (int d = 0; d < 3; ++d) {
     const double width = reading.setup.domain.max[d] - reading.setup.domain.min[d];
-    const double spacing = width / fluid.cells[static_cast<std::size_t>(d)];
-    finest = d == 0 ? spacing : std::min(finest, spacing);
+    const double edge = width / fluid.cells[static_cast<std::size_t>(d)];
+    edges.shortest = std::min(edges.shortest, edge);
+    edges.longest = std::max(edges.longest, edge);
   }
+  return edges;
+}
+
+/// The viscous way of a step, in cells squared.
+void check_step(Reading& reading, const FluidSpec& fluid, double finest) {
   const double per_second = fluid.viscosity / (fluid.density * finest * finest);
   const double ratio = per_second * reading.setup.time.fluid_step;
   const bool is_light = std::any_of(fluid.resolved.begin(), fluid.resolved.end(), [&](int m) {
@@ -106,25 +116,15 @@ void read_resolved(Reading& reading, const CouplingBlock& coupling, const Entry*
 
 namespace {
 
-/// Warns of flat cells; returns their longest edge [m].
-double check_cells(Reading& reading, const FluidSpec& fluid) {
-  double spacing = 0.0;
-  double finest = std::numeric_limits<double>::infinity();
-  for (int d = 0; d < 3; ++d) {
-    const double width = reading.setup.domain.max[d] - reading.setup.domain.min[d];
-    const double here = width / fluid.cells[static_cast<std::size_t>(d)];
-    spacing = std::max(spacing, here);
-    finest = std::min(finest, here);
-  }
-  if (spacing > k_nearly_cubes * finest) {
-    reading.diagnostics.warning(
-        fluid.resolved_where, "coupling.resolved: cells are " +
-                                  number_text(std::round(100.0 * spacing / finest) / 100.0) +
-                                  " times as long as wide: the drag of a resolved sphere depends "
-                                  "on its direction by some "
-                                  "per cent then (docs/theory/resolved.md, section 5); take cubes");
-  }
-  return spacing;
+void check_cells(Reading& reading, const FluidSpec& fluid, const Edges& edges) {
+  if (edges.longest <= k_nearly_cubes * edges.shortest) return;
+  reading.diagnostics.warning(
+      fluid.resolved_where,
+      "coupling.resolved: cells are " +
+          number_text(std::round(100.0 * edges.longest / edges.shortest) / 100.0) +
+          " times as long as wide: the drag of a resolved sphere depends "
+          "on its direction by some "
+          "per cent then (docs/theory/resolved.md, section 5); take cubes");
 }
 
 }  // namespace
@@ -135,8 +135,10 @@ void check_resolved(Reading& reading) {
       reading.diagnostics.has_errors())
     return;
   const FluidSpec& fluid = *reading.setup.fluid;
-  check_step(reading, fluid);
-  const double spacing = check_cells(reading, fluid);
+  const Edges edges = edges_of(reading, fluid);
+  check_step(reading, fluid, edges.shortest);
+  check_cells(reading, fluid, edges);
+  const double spacing = edges.longest;
   for (const int material : fluid.resolved) {
     const MaterialSpec& m = reading.setup.materials[static_cast<std::size_t>(material)];
     if (m.coarse_graining != 1.0) {

@@ -14,7 +14,7 @@
 namespace dust::test {
 TEST_CASE("resolved: steady drag does not depend on the fluid step, nor on the time to settle") {
   // 8 cells across, the fewest that are allowed. All markers stand still in the end, so what is
-  // left is how steady "steady" is. One marker per cell: 4.2 % between these steps.
+  // left is how steady "steady" is.
   const double drag = array_drag(16, 0.064);
   CAPTURE(drag);
   CHECK(drag == test::approx(2.810).epsilon(0.01));  // Zick and Homsy 1982

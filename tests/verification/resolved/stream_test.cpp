@@ -67,8 +67,8 @@ Stream stream_past(double reynolds, int across, double wide, double length) {
 }  // namespace
 
 // Drag coefficients of an unbounded stream: Clift, Grace, Weber (1978), Bubbles, Drops, and
-// Particles. The duct adds some per cent: at Re 20, 2.86 where it is 6 diameters wide and begins 3
-// before the sphere, 2.82 at 10 and 3, 2.76 at 10 and 5.
+// Particles. The duct adds to them, less the wider it is and the farther before the sphere it
+// begins.
 TEST_CASE("V-STREAM: drag of a fixed sphere in a stream, and the eddy that grows behind it") {
   const Stream slow = stream_past(20.0, 8, 10.0, 13.0);
   const Stream middle = stream_past(50.0, 8, 10.0, 13.0);
