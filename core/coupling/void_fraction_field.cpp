@@ -37,6 +37,7 @@ VoidFractionField::VoidFractionField(const Lattice& lattice, const sdk::VoidageR
   before_.eps.assign(lattice.grid().size, 1.0);
   after_.eps = before_.eps;
   volume_.assign(lattice.grid().size, 0.0);
+  offered_ = volume_;
 }
 
 void VoidFractionField::spread(const particles::GrainRows& grains, std::size_t first,
@@ -116,39 +117,57 @@ void VoidFractionField::add(std::ptrdiff_t cell, double volume) {
   volume_[cell] += volume;
 }
 
-/// Overfull cells give their excess to open neighbours in the ratio of the room these have. What
-/// finds no room within k_max_sweeps cells stays, and shows in the smallest void fraction.
-std::int64_t VoidFractionField::redistribute_excess() {
-  const double allowed = (1.0 - k_smallest_void_fraction) * lattice_.cell_volume();
-  const auto room = [&](std::ptrdiff_t cell) {
-    return cell < 0 ? 0.0 : std::max(0.0, allowed * lattice_.open_fraction(cell) - volume_[cell]);
-  };
+/// Room for solids [m3] that a cell still has.
+double VoidFractionField::room(std::ptrdiff_t cell) const {
+  const double allowed =
+      (1.0 - k_smallest_void_fraction) * lattice_.cell_volume() * lattice_.open_fraction(cell);
+  return std::max(0.0, allowed - volume_[cell]);
+}
+
+/// What each overfull cell would give to which neighbour, by the volumes as they are: all of its
+/// excess, in the ratio of the room that its neighbours have, as far as they have any.
+bool VoidFractionField::find_transfers() {
   // A cell filled to the limit by a neighbour must not count as overfull for its rounding.
   constexpr double k_rounding = 1e-12;
-  std::int64_t limited = 0;
-  for (int sweep = 0; sweep < k_max_sweeps; ++sweep) {
-    bool is_done = true;
-    for (std::size_t n = 0; n < after_.active.size(); ++n) {
-      const std::ptrdiff_t cell = after_.active[n];
-      const double excess = volume_[cell] - allowed * lattice_.open_fraction(cell);
-      if (excess <= k_rounding * allowed) continue;
-      const auto neighbours = lattice_.open_neighbours(cell);
-      double total = 0.0;
-      for (const std::ptrdiff_t other : neighbours) total += room(other);
-      is_done = false;
-      if (total <= 0.0) continue;
-      const double moved = std::min(1.0, excess / total);
-      double given = 0.0;
-      for (const std::ptrdiff_t other : neighbours) {
-        const double part = moved * room(other);
-        if (part <= 0.0) continue;
-        add(other, part);
-        given += part;
-      }
-      volume_[cell] -= given;
-      ++limited;
+  const double allowed = (1.0 - k_smallest_void_fraction) * lattice_.cell_volume();
+  bool is_any_overfull = false;
+  transfers_.clear();
+  for (const std::ptrdiff_t cell : after_.active) {
+    const double excess = volume_[cell] - allowed * lattice_.open_fraction(cell);
+    if (excess <= k_rounding * allowed) continue;
+    is_any_overfull = true;
+    const auto neighbours = lattice_.open_neighbours(cell);
+    double total = 0.0;
+    for (const std::ptrdiff_t other : neighbours) total += other < 0 ? 0.0 : room(other);
+    if (total <= 0.0) continue;
+    for (const std::ptrdiff_t other : neighbours) {
+      if (other < 0) continue;
+      const double part = std::min(1.0, excess / total) * room(other);
+      if (part > 0.0) transfers_.push_back({cell, other, part});
     }
-    if (is_done) break;
+  }
+  return is_any_overfull;
+}
+
+/// Overfull cells give their excess to open neighbours in the ratio of the room these have. All of
+/// them give at once, and a neighbour that is offered more than it has room for takes the same
+/// share of each transfer: so the field does not depend on the order of the grains. What finds no
+/// room within k_max_sweeps cells stays, and shows in the smallest void fraction.
+std::int64_t VoidFractionField::redistribute_excess() {
+  std::int64_t limited = 0;
+  for (int sweep = 0; sweep < k_max_sweeps && find_transfers(); ++sweep) {
+    if (transfers_.empty()) break;
+    for (const Transfer& transfer : transfers_) offered_[transfer.to] += transfer.volume;
+    for (Transfer& transfer : transfers_)
+      transfer.volume *= std::min(1.0, room(transfer.to) / offered_[transfer.to]);
+    std::ptrdiff_t last = -1;
+    for (const Transfer& transfer : transfers_) {
+      volume_[transfer.from] -= transfer.volume;
+      add(transfer.to, transfer.volume);
+      offered_[transfer.to] = 0.0;
+      limited += transfer.from == last ? 0 : 1;
+      last = transfer.from;
+    }
   }
   return limited;
 }

@@ -61,6 +61,12 @@ class VoidFractionField {
     std::ptrdiff_t cell;
     double volume;
   };
+  /// Of an overfull cell to a neighbour.
+  struct Transfer {
+    std::ptrdiff_t from;
+    std::ptrdiff_t to;
+    double volume;  ///< [m3]
+  };
   /// A field that is 1 except in the cells listed.
   struct State {
     fluid::CellField eps;
@@ -73,13 +79,17 @@ class VoidFractionField {
                    const sdk::VoidageBatch& batch, std::vector<Share>& shares,
                    Counts& counts) const;
   void add(std::ptrdiff_t cell, double volume);
+  [[nodiscard]] double room(std::ptrdiff_t cell) const;
+  bool find_transfers();
   std::int64_t redistribute_excess();
 
   const Lattice& lattice_;
   const sdk::VoidageRule& rule_;
   State before_;
   State after_;
-  fluid::CellField volume_;  ///< [m3] of grains per cell; zero between calls
+  fluid::CellField volume_;   ///< [m3] of grains per cell; zero between calls
+  fluid::CellField offered_;  ///< [m3] by overfull neighbours; zero between calls
+  std::vector<Transfer> transfers_;
   std::vector<std::vector<Share>> shares_;
 };
 

@@ -87,7 +87,8 @@ void MarkerForcing::each_face(const fluid::ForcedFluid& fluid, const Take& take)
 Vec3 MarkerForcing::surface_velocity(std::size_t sphere, std::size_t marker) const {
   const MarkerLattice& lattice = *marked_[sphere].lattice;
   const Sphere& s = spheres_[sphere];
-  return s.velocity + cross(s.rotation, lattice.radius * lattice.direction[marker]);
+  return s.velocity +
+         cross(lattice.turning_gain * s.rotation, lattice.radius * lattice.direction[marker]);
 }
 
 /// Or beyond a periodic side, which leads round.

@@ -43,6 +43,10 @@ class MarkerForcing final : public fluid::VelocityForcing {
   /// What the markers of sphere `n` gave the fluid in this fluid step.
   [[nodiscard]] const Impulse& given(std::size_t n) const { return marked_[n].given; }
   [[nodiscard]] const Forces& forces(std::size_t n) const { return marked_[n].forces; }
+  /// How much faster its markers turn, and the fluid inside with them.
+  [[nodiscard]] double turning_gain(std::size_t n) const {
+    return marked_[n].lattice->turning_gain;
+  }
   [[nodiscard]] std::size_t markers() const;
   /// [m/s] Largest difference between the fluid, as the markers see it where they stood last, and
   /// the surface there; `velocity` with filled halo.

@@ -9,6 +9,8 @@ namespace dust::resolved {
 
 double retraction(double cells) { return 0.28 + 1.07 / cells; }
 
+double turning_gain(double cells) { return 1.0 + 4.0 / (cells * cells); }
+
 int marker_count(double cells) {
   const double layer = std::numbers::pi / 3.0 * (3.0 * cells * cells + 1.0);
   return static_cast<int>(std::ceil(layer / k_cells_per_marker));
@@ -29,6 +31,7 @@ MarkerLattice make_lattice(double diameter, double spacing) {
     lattice.direction.push_back({width * std::cos(angle), width * std::sin(angle), height});
   }
   lattice.radius = 0.5 * diameter - retraction(cells) * spacing;
+  lattice.turning_gain = turning_gain(cells);
   const double layer = std::numbers::pi * spacing / 3.0 *
                        (12.0 * lattice.radius * lattice.radius + spacing * spacing);
   lattice.volume = layer / count;

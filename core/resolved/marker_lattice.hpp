@@ -12,6 +12,11 @@ namespace dust::resolved {
 /// sphere itself: docs/theory/resolved.md, eq. (2), found with cubic arrays.
 [[nodiscard]] double retraction(double cells);
 
+/// How much faster the markers turn than the sphere, so that the torque is the sphere's: they stand
+/// where drag is right, and a torque goes with the third power of the radius:
+/// docs/theory/resolved.md, eq. (6), found with cubic arrays.
+[[nodiscard]] double turning_gain(double cells);
+
 /// Cells of the surface for each marker. Markers that see nearly the same faces can push them
 /// against each other without moving the fluid: such forces would take hundreds of steps to settle,
 /// and the drag with them.
@@ -26,6 +31,7 @@ struct MarkerLattice {
   std::vector<sdk::Vec3> direction;  ///< unit vectors, in the axes of the domain
   double radius = 0.0;               ///< [m] where they stand
   double volume = 0.0;               ///< [m3] of a piece
+  double turning_gain = 1.0;         ///< [-] see there
 };
 
 /// Of a sphere of `diameter` [m] in cells of the edge `spacing` [m].

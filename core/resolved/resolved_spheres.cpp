@@ -21,6 +21,10 @@ using sdk::Vec3;
 /// far off, and so slow, that the force changes by this share over a fluid step.
 constexpr double k_relaxed = 1e-4;
 
+/// The fluid meets a change of the spin a step late. This inertia, of the displaced fluid's own,
+/// resists the change from step to step, so that light spheres do not spin up by themselves.
+constexpr double k_virtual_inertia = 3.0;
+
 Vec3 vector_of(const double* p) { return {p[0], p[1], p[2]}; }
 
 }  // namespace
@@ -103,6 +107,7 @@ void ResolvedSpheres::evaluate(const fluid::FaceField& velocity) {
                                                    sphere.position_after(around_.step));
     state.due = inner;
     state.due -= state.inner;
+    state.due.angular = (1.0 / forcing_.turning_gain(n)) * state.due.angular;
     state.due -= forcing_.given(n);
     state.due.linear += around_.step * sdk::sphere_volume(2.0 * sphere.radius) * around_.buoyancy;
     state.due.linear += state.deferred;
@@ -112,11 +117,11 @@ void ResolvedSpheres::evaluate(const fluid::FaceField& velocity) {
   report_.largest_slip = forcing_.largest_slip(velocity);
 }
 
-/// docs/theory/resolved.md, eq. (11).
+/// docs/theory/resolved.md, eq. (11), (12).
 void ResolvedSpheres::act(const GrainRows& grains, const Turn& turn) {
   const double rate = k_relaxed / around_.step;
   const double relaxed = -std::expm1(-k_relaxed);
-  each_row(grains, [&](std::size_t row, const State& state, std::size_t) {
+  each_row(grains, [&](std::size_t row, State& state, std::size_t) {
     const double* velocity = grains.velocity_of(row);
     const double inverse_mass = velocity[3];
     double* action = grains.drag_relaxation + 4 * row;
@@ -125,7 +130,11 @@ void ResolvedSpheres::act(const GrainRows& grains, const Turn& turn) {
     }
     action[3] = rate;
     const double radius = grains.position[4 * row + 3];
-    turn(row, (2.5 * inverse_mass / (radius * radius)) * state.due.angular);
+    const Vec3 alone = (2.5 * inverse_mass / (radius * radius)) * state.due.angular;
+    const double held =
+        k_virtual_inertia * around_.density * sdk::sphere_volume(2.0 * radius) * inverse_mass;
+    state.turned = (alone + held * state.turned) / (1.0 + held);
+    turn(row, state.turned);
   });
 }
 
@@ -160,12 +169,12 @@ void ResolvedSpheres::save(sdk::ArchiveWriter& archive) const {
   for (const State& s : states_) {
     ids.push_back(s.id);
     counts.push_back(static_cast<std::int64_t>(s.forces.size()));
-    for (const Vec3& v : {s.inner.linear, s.inner.angular, s.deferred}) put(numbers, v);
+    for (const Vec3& v : {s.inner.linear, s.inner.angular, s.deferred, s.turned}) put(numbers, v);
     for (const Vec3& v : s.forces) put(forces, v);
   }
   archive.integers("ids", ids);
   archive.integers("markers", counts);
-  archive.numbers("inner_and_deferred", numbers);
+  archive.numbers("inner_deferred_turned", numbers);
   archive.numbers("forces", forces);
   archive.number("least_cells_per_diameter", report_.least_cells_per_diameter);
   archive.number("largest_slip", report_.largest_slip);
@@ -174,9 +183,9 @@ void ResolvedSpheres::save(sdk::ArchiveWriter& archive) const {
 void ResolvedSpheres::load(sdk::ArchiveReader& archive) {
   const auto ids = archive.integers("ids");
   const auto counts = archive.integers("markers");
-  const auto numbers = archive.numbers("inner_and_deferred");
+  const auto numbers = archive.numbers("inner_deferred_turned");
   const auto forces = archive.numbers("forces");
-  if (counts.size() != ids.size() || numbers.size() != 9 * ids.size()) {
+  if (counts.size() != ids.size() || numbers.size() != 12 * ids.size()) {
     throw sdk::ModelError("the checkpoint's resolved spheres are not whole");
   }
   states_.clear();
@@ -185,8 +194,10 @@ void ResolvedSpheres::load(sdk::ArchiveReader& archive) {
   for (std::size_t n = 0; n < ids.size(); ++n) {
     State state;
     state.id = ids[n];
-    state.inner = {vector_of(&numbers[9 * n]), vector_of(&numbers[9 * n + 3])};
-    state.deferred = vector_of(&numbers[9 * n + 6]);
+    const double* of_sphere = &numbers[12 * n];
+    state.inner = {vector_of(of_sphere), vector_of(of_sphere + 3)};
+    state.deferred = vector_of(of_sphere + 6);
+    state.turned = vector_of(of_sphere + 9);
     for (std::int64_t l = 0; l < counts[n]; ++l, at += 3) {
       state.forces.push_back(vector_of(&forces.at(at)));
     }

@@ -75,6 +75,7 @@ class ResolvedSpheres {
     Impulse inner;                 ///< of the fluid inside
     Impulse due;                   ///< to be received in this step
     sdk::Vec3 deferred;            ///< [N s] not yet received
+    sdk::Vec3 turned;              ///< [rad/s] change of the spin in the step before
     MarkerForcing::Forces forces;  ///< at the end of the step before
   };
   [[nodiscard]] std::vector<std::pair<std::int64_t, std::size_t>> rows_of(

@@ -11,8 +11,10 @@ namespace {
 /// Cells from a surface within which convection runs along it: what its layer needs to come to
 /// some cells of thickness. Two let twice the error in, four bring nothing more.
 constexpr double k_skew_reach = 3.0;
-/// Neighbours looked at, each way, in cells.
-constexpr int k_patch = 3;
+/// Neighbours looked at, each way, in cells: between 3.5 and 4, so that both components, which
+/// stand half a cell off each other, reach as far to one side as to the other.
+constexpr double k_patch = 3.75;
+constexpr int k_patch_rows = 4;
 /// Widths [cells] of the neighbours' weights exp(-(x/width)^2) along the surface and across it:
 /// long along it, where little changes, and narrow across it, where the layer is.
 constexpr double k_width_along = 2.0;
@@ -31,8 +33,22 @@ constexpr std::size_t k_min_nodes = 10;
 /// way of a cell) is nothing to be resolved, and the dissipation of the plain scheme is what such
 /// flows need. Runs were stable up to three times this.
 constexpr double k_largest_cell_reynolds = 1000.0;
+/// Pivots of a fit over its largest one below which its points determine less than six
+/// coefficients: they lie on a line or two.
+constexpr double k_smallest_pivot = 1e-7;
 /// Sum of the weights' magnitudes beyond which a fit is taken as undetermined; 2 to 5 is usual.
 constexpr double k_largest_weights = 20.0;
+
+/// Of second degree: c0 + c1 x + c2 z + c3 x^2 + c4 x z + c5 z^2.
+using Row = Eigen::Vector<double, 6>;
+using Square = Eigen::Matrix<double, 6, 6>;
+
+bool is_singular(const Eigen::LDLT<Square>& fit) {
+  const auto pivots = fit.vectorD();
+  return !(pivots.minCoeff() > k_smallest_pivot * pivots.maxCoeff());
+}
+
+int wrapped(int n, int count) { return ((n % count) + count) % count; }
 
 }  // namespace
 
@@ -150,16 +166,18 @@ bool SkewStencils::gather(int d, const std::array<int, 3>& c, const Frame& f, bo
   const int b = (f.along + 2) % 3;
   const double scale_along = spacing_along(grid_, f.tangent);
   const double scale_across = spacing_along(grid_, f.hit.normal);
-  for (int q = -k_patch; q <= k_patch; ++q) {
-    for (int p = -k_patch; p <= k_patch; ++p) {
+  for (int q = -k_patch_rows; q <= k_patch_rows; ++q) {
+    for (int p = -k_patch_rows; p <= k_patch_rows; ++p) {
       std::array<int, 3> at = c;
       at[a] += p;
       at[b] += q;
       Vec3 way = grid_.face(d, at[0], at[1], at[2]) - f.place;
       way[f.along] = 0.0;
+      if (std::abs(way[a]) > k_patch * grid_.spacing[a]) continue;
+      if (std::abs(way[b]) > k_patch * grid_.spacing[b]) continue;
       bool is_outside = false;
       for (const int dir : {a, b}) {
-        if (sides_.is_periodic[dir]) at[dir] = (at[dir] + grid_.count[dir]) % grid_.count[dir];
+        if (sides_.is_periodic[dir]) at[dir] = wrapped(at[dir], grid_.count[dir]);
         is_outside = is_outside || at[dir] < 0 || at[dir] >= g_.extent[d][dir];
       }
       if (is_outside || at[f.along] >= g_.extent[d][f.along]) continue;
@@ -198,11 +216,8 @@ bool SkewStencils::gather(int d, const std::array<int, 3>& c, const Frame& f, bo
 bool SkewStencils::fit(int d, const std::array<int, 3>& c, const Frame& frame, std::ptrdiff_t self,
                        std::vector<SkewNode>& nodes, bool& is_askew) {
   if (!gather(d, c, frame, is_askew) || !is_askew) return false;
-  // A full polynomial of second degree, c0 + c1 x + c2 z + c3 x^2 + c4 x z + c5 z^2, by least
-  // squares; once with the face itself, once without. Without x^2 the dissipation would be of first
-  // order where the surface bends.
-  using Row = Eigen::Vector<double, 6>;
-  using Square = Eigen::Matrix<double, 6, 6>;
+  // By least squares, once with the face itself, once without. Without x^2 the dissipation would be
+  // of first order where the surface bends.
   const auto row = [](const PatchPoint& p) {
     return Row{1.0, p.x, p.z, p.x * p.x, p.x * p.z, p.z * p.z};
   };
@@ -215,7 +230,9 @@ bool SkewStencils::fit(int d, const std::array<int, 3>& c, const Frame& frame, s
     if (p.from != self) others += square;
   }
   const Eigen::LDLT<Square> of_all(all);
-  const Row value = Eigen::LDLT<Square>(others).solve(Row::Unit(0));
+  const Eigen::LDLT<Square> of_others(others);
+  if (is_singular(of_all) || is_singular(of_others)) return false;
+  const Row value = of_others.solve(Row::Unit(0));
   const Row slope = of_all.solve(Row::Unit(1));
   const Row ascent = of_all.solve(Row::Unit(2));
   const double scale_along = spacing_along(grid_, frame.tangent);

@@ -24,10 +24,6 @@ constexpr double k_lightest = 0.8;
 /// with longer steps, from twice as long ones on until the run diverges: docs/theory/resolved.md,
 /// section 5.
 constexpr double k_longest_way = 1.0;
-/// The same where the sphere is lighter than `k_light` of the fluid: the layer that it takes round
-/// with a spin has more inertia than itself.
-constexpr double k_longest_way_of_light = 0.6;
-constexpr double k_light = 1.05;
 /// Edges of cells over each other up to which drag is that in cubes within a per cent.
 constexpr double k_nearly_cubes = 1.2;
 
@@ -57,23 +53,16 @@ Edges edges_of(const Reading& reading, const FluidSpec& fluid) {
 void check_step(Reading& reading, const FluidSpec& fluid, double finest) {
   const double per_second = fluid.viscosity / (fluid.density * finest * finest);
   const double ratio = per_second * reading.setup.time.fluid_step;
-  const bool is_light = std::any_of(fluid.resolved.begin(), fluid.resolved.end(), [&](int m) {
-    const auto& material = reading.setup.materials[static_cast<std::size_t>(m)];
-    return material.properties.density < k_light * fluid.density;
-  });
-  const double limit = is_light ? k_longest_way_of_light : k_longest_way;
-  if (!(ratio > (1.0 + 1e-9) * limit)) return;
+  if (!(ratio > (1.0 + 1e-9) * k_longest_way)) return;
   // [ms], three digits, downward.
-  const double longest = 1e3 * limit / per_second;
+  const double longest = 1e3 * k_longest_way / per_second;
   const double digits = std::pow(10.0, 2.0 - std::floor(std::log10(longest)));
   reading.error(
       fluid.resolved_where,
       "coupling.resolved: viscosity x time.fluid_step / (density x cell^2) is " +
-          number_text(std::round(100 * ratio) / 100) + "; above " + number_text(limit) +
-          (is_light ? " a sphere as light as the fluid spins up by itself until the run diverges"
-                    : " a sphere beside a wall and the fluid drive each other to and fro until the "
-                      "run diverges") +
-          ": take a time.fluid_step of at most " +
+          number_text(std::round(100 * ratio) / 100) + "; above " + number_text(k_longest_way) +
+          " a sphere beside a wall and the fluid drive each other to and fro until the run "
+          "diverges: take a time.fluid_step of at most " +
           number_text(std::floor(longest * digits * (1.0 + 1e-9)) / digits) + " ms");
 }
 

@@ -79,10 +79,11 @@ class FreeGrains {
 struct ResolvedBox : Case {
   FreeGrains grains;
   std::unique_ptr<resolved::ResolvedSpheres> spheres;
-  double step = 0.0;             ///< [s]
-  Vec3 gravity;                  ///< [m/s2] of the grains, buoyancy taken off
-  bool is_held = false;          ///< spheres keep position and velocity
-  std::vector<Vec3> mean_force;  ///< [N] of the fluid on each sphere in the last step
+  double step = 0.0;              ///< [s]
+  Vec3 gravity;                   ///< [m/s2] of the grains, buoyancy taken off
+  bool is_held = false;           ///< spheres keep position and velocity
+  std::vector<Vec3> mean_force;   ///< [N] of the fluid on each sphere in the last step
+  std::vector<Vec3> mean_torque;  ///< [N m] likewise
 
   void begin() {
     start();
@@ -95,8 +96,10 @@ struct ResolvedBox : Case {
     advance(step);
     spheres->evaluate(solver->velocity());
     mean_force.clear();
+    mean_torque.clear();
     for (std::size_t n = 0; n < spheres->forcing().spheres().size(); ++n) {
       mean_force.push_back(spheres->forcing().given(n).linear / -step);
+      mean_torque.push_back(spheres->forcing().given(n).angular / -step);
     }
     if (is_held) return;
     spheres->act(grains.rows(), [&](std::size_t n, Vec3 change) { grains.turn(n, change); });
