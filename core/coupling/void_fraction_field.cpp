@@ -151,22 +151,21 @@ bool VoidFractionField::find_transfers() {
 
 /// Overfull cells give their excess to open neighbours in the ratio of the room these have. All of
 /// them give at once, and a neighbour that is offered more than it has room for takes the same
-/// share of each transfer: so the field does not depend on the order of the grains. What finds no
-/// room within k_max_sweeps cells stays, and shows in the smallest void fraction.
+/// share of each offer: so the field does not depend on the order of the grains. What finds no room
+/// within k_max_sweeps cells stays, and shows in the smallest void fraction.
 std::int64_t VoidFractionField::redistribute_excess() {
   std::int64_t limited = 0;
   for (int sweep = 0; sweep < k_max_sweeps && find_transfers(); ++sweep) {
     if (transfers_.empty()) break;
-    for (const Transfer& transfer : transfers_) offered_[transfer.to] += transfer.volume;
-    for (Transfer& transfer : transfers_)
-      transfer.volume *= std::min(1.0, room(transfer.to) / offered_[transfer.to]);
+    for (const Transfer& t : transfers_) offered_[t.to] += t.volume;
+    for (Transfer& t : transfers_) t.volume *= std::min(1.0, room(t.to) / offered_[t.to]);
     std::ptrdiff_t last = -1;
-    for (const Transfer& transfer : transfers_) {
-      volume_[transfer.from] -= transfer.volume;
-      add(transfer.to, transfer.volume);
-      offered_[transfer.to] = 0.0;
-      limited += transfer.from == last ? 0 : 1;
-      last = transfer.from;
+    for (const Transfer& t : transfers_) {
+      volume_[t.from] -= t.volume;
+      add(t.to, t.volume);
+      offered_[t.to] = 0.0;
+      limited += t.from == last ? 0 : 1;
+      last = t.from;
     }
   }
   return limited;
