@@ -31,8 +31,11 @@
 
     const cell = (v, factor = 1) => (v === null ? dash : Dust.value(factor * v.value, v.error === null ? -1 : factor * v.error));
     const capture = (t) => (t.capture === null ? dash : t.is_few ? Dust.number(100 * t.capture.value, 2) + ' (few grains)' : cell(t.capture, 100));
-    const rows = [...(hoods.plain ? [[hoods.plain_drawn ? 'no other hood' : 'no hood', dash, cell(hoods.plain_drawn || null), cell(hoods.plain), dash]] : []),
-      ...hoods.places.flatMap((place) => place.trials.map((t) => [Dust.words(place.name), flow(t.flow_m3_per_s), cell(t.drawn), cell(t.escapes), capture(t)]))];
+    // Hoods that stand there anyway have a column where there are any.
+    const row = (place, at_flow, t) => [place, at_flow ? flow(t.flow_m3_per_s) : dash, at_flow ? cell(t.drawn) : dash, ...(hoods.has_others ? [cell(t.drawn_by_others)] : []),
+      cell(t.escapes), at_flow || hoods.has_others ? capture(t) : dash];
+    const rows = [...(hoods.plain ? [row(hoods.has_others ? 'no hood more' : 'no hood', false, hoods.plain)] : []),
+      ...hoods.places.flatMap((place) => place.trials.map((t) => row(Dust.words(place.name), true, t)))];
     const grid = el('div', {class: 'grid'});
     Dust.later.push(() => Dust.plot(grid, {title: 'Capture', x_label: 'flow, ' + flow_unit, y_label: 'of the dust, %', unit: '%', lines: hoods.places.map((place) => {
       const seen = place.trials.filter((t) => t.capture), error = (t) => (t.capture.error || 0);
@@ -40,8 +43,8 @@
         low: seen.map((t) => 100 * (t.capture.value - error(t))), high: seen.map((t) => 100 * (t.capture.value + error(t)))};
     })}));
     return Dust.section('hoods', 'What the hoods capture', p({class: 'lede'}, ...answer), places,
-      Dust.table([{title: 'Place'}, n('Flow'), n(`Drawn out, ${hoods.unit}`), n(`Escapes, ${hoods.unit}`), n('Capture, %')], rows, {label: 'Hoods'}), grid,
-      p({class: 'note'}, 'Capture: what the hood draws out over that and what still escapes through the openings that are watched, after the flow of the hood has come about; with one standard error. '
+      Dust.table([{title: 'Place'}, n('Flow'), n(`Drawn out, ${hoods.unit}`), ...(hoods.has_others ? [n(`By other hoods, ${hoods.unit}`)] : []), n(`Escapes, ${hoods.unit}`), n('Capture, %')], rows, {label: 'Hoods'}), grid,
+      p({class: 'note'}, 'Capture: what all hoods draw out over that and what still escapes through the openings that are watched, after the flow of the hood has come about; with one standard error. '
         + 'The smallest flow lies on a straight line between two that were tried; for another fraction: engine suggest-hoods DIR --capture.'));
   };
 

@@ -16,7 +16,26 @@ Json estimate_json(const Uncertain& estimate, double factor) {
           {"error", estimate.error > 0.0 ? Json(factor * estimate.error) : Json(nullptr)}};
 }
 
+Json trial_json(const HoodTrial& trial, const HoodScale& scale) {
+  const double factor = scale.factor(trial);
+  const auto capture = trial.capture();
+  const bool is_few = trial.computed >= 0.0 && trial.computed < k_few_drawn;
+  return {{"flow_m3_per_s", trial.flow},
+          {"drawn", estimate_json(trial.drawn, factor)},
+          {"drawn_by_others", estimate_json(trial.drawn_by_others, factor)},
+          {"escapes", estimate_json(trial.escaping, factor)},
+          {"capture", capture ? estimate_json(*capture, 1.0) : Json(nullptr)},
+          {"is_few", is_few}};
+}
+
 }  // namespace
+
+bool HoodResults::has_others() const {
+  const auto draws = [](const HoodTrial& trial) { return trial.drawn_by_others.value > 0.0; };
+  return (plain && draws(*plain)) || std::any_of(places.begin(), places.end(), [&](const auto& p) {
+           return std::any_of(p.trials.begin(), p.trials.end(), draws);
+         });
+}
 
 HoodScale::HoodScale(const HoodResults& results)
     : is_per_load(std::any_of(results.places.begin(), results.places.end(), [](const auto& place) {
@@ -37,14 +56,7 @@ Json hoods_json(const HoodResults& results) {
   for (const HoodPlace& place : results.places) {
     Json trials = Json::array();
     for (const HoodTrial& trial : place.trials) {
-      const double factor = scale.factor(trial);
-      const auto capture = trial.capture();
-      const bool is_few = trial.computed >= 0.0 && trial.computed < k_few_drawn;
-      trials.push_back({{"flow_m3_per_s", trial.flow},
-                        {"drawn", estimate_json(trial.drawn, factor)},
-                        {"escapes", estimate_json(trial.escaping, factor)},
-                        {"capture", capture ? estimate_json(*capture, 1.0) : Json(nullptr)},
-                        {"is_few", is_few}});
+      trials.push_back(trial_json(trial, scale));
     }
     const auto needed = needed_flow(place, k_wanted);
     Json entry = {
@@ -53,15 +65,11 @@ Json hoods_json(const HoodResults& results) {
     if (needed) entry["needed"] = {{"flow_m3_per_s", needed->flow}, {"is_bound", needed->is_bound}};
     places.push_back(std::move(entry));
   }
-  const bool has_own = results.plain && results.plain->drawn.value > 0.0;
-  return {
-      {"unit", scale.unit()},
-      {"plain", results.plain ? estimate_json(results.plain->escaping, scale.factor(*results.plain))
-                              : Json(nullptr)},
-      {"plain_drawn",
-       has_own ? estimate_json(results.plain->drawn, scale.factor(*results.plain)) : Json(nullptr)},
-      {"wanted", k_wanted},
-      {"places", places}};
+  return {{"unit", scale.unit()},
+          {"plain", results.plain ? trial_json(*results.plain, scale) : Json(nullptr)},
+          {"has_others", results.has_others()},
+          {"wanted", k_wanted},
+          {"places", places}};
 }
 
 }  // namespace dust::study

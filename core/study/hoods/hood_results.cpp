@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <map>
 
@@ -120,11 +121,27 @@ class Growth {
   double begin_ = 0.0;
 };
 
-/// [kg] of a computed grain of dust in the mean over those that the hood has drawn; 0 without any.
-double mass_of_drawn(const report::RunText& run) {
+/// Hoods of a point: the one that is tried, or those that stand there anyway.
+enum class Hoods : std::uint8_t { tried, others };
+
+/// Is it a column of one of them, that ends with `what`?
+bool is_of(const std::string& column, Hoods hoods, const std::string& what) {
+  constexpr const char* k_of_hoods = "hoods/";
+  const bool is_tried = column == k_of_hoods + std::string(k_hood_body) + what;
+  if (hoods == Hoods::tried) return is_tried;
+  return column.starts_with(k_of_hoods) && column.ends_with(what) && !is_tried;
+}
+
+/// Columns of all dust that a hood has drawn, and of the part that came out of the dust field.
+constexpr const char* k_dust = "/dust";
+constexpr const char* k_field_dust = "/field_dust";
+
+/// [kg] of a computed grain of dust in the mean over those that hoods have drawn; 0 without any.
+double mass_of_drawn(const report::RunText& run, Hoods hoods) {
   double count = 0.0, mass = 0.0;
   for (const auto& table : report::list_at(run.report, "tables")) {
-    if (report::text_at(table, "sensor") != k_hood_body) continue;
+    const std::string column = "hoods/" + report::text_at(table, "sensor") + k_dust;
+    if (column_of(run, column) == nullptr || !is_of(column, hoods, k_dust)) continue;
     for (const auto& row : report::list_at(table, "rows")) {
       if (!row.is_array() || row.size() != 3 || !run.dust.is_dust(1e-6 * row[0].get<double>())) {
         continue;
@@ -148,62 +165,38 @@ bool is_of_field(const std::string& name, const char* end) {
   return name.starts_with("dust_field/") && name.ends_with(end);
 }
 
-/// Is it what `hood` has drawn out? Empty: any hood.
-bool is_of_hood(const std::string& name, const std::string& hood, const char* what) {
-  if (!hood.empty()) return name == "hoods/" + hood + what;
-  return name.starts_with("hoods/") && name.ends_with(what);
-}
+/// What hoods draw out.
+struct Drawn {
+  Uncertain rate;         ///< [kg/s]
+  double computed = 0.0;  ///< computed grains of it; negative: a field
+};
 
-/// What a hood draws out of the dust field; empty: all hoods. Runs of before have no column of each
-/// hood: that of all where it is the only one, else the mean of the whole run.
-Uncertain drawn_of_field(const report::RunText& run, const Growth& growth,
-                         const std::string& hood) {
-  constexpr const char* k_drawn = "/field_dust";
-  constexpr double k_hour = 3600.0;  // s
-  std::size_t hoods = 0;
-  bool has_columns = false;
-  for (const report::SeriesColumn& column : run.series) {
-    has_columns = has_columns || is_of_hood(column.name, {}, k_drawn);
-    if (is_of_hood(column.name, {}, "/dust")) ++hoods;
-  }
-  if (has_columns) {
-    return growth.of([&](const std::string& name) { return is_of_hood(name, hood, k_drawn); });
-  }
-  if (hood.empty() || hoods < 2) {
-    return growth.of([](const std::string& name) { return is_of_field(name, "/hoods"); });
-  }
-  const std::string rate = "drawn_out/" + hood + "/rate";
-  const auto& rates = report::object_at(run.summary, "dust_rates");
-  return {report::number_at(report::object_at(rates, rate.c_str()), "value").value_or(0.0) / k_hour,
-          -1.0};
-}
-
-/// What a hood draws out of dust as grains; empty: all hoods.
-Uncertain drawn_of_grains(const Growth& growth, const std::string& hood) {
-  return growth.of([&](const std::string& name) {
-    // The dust of a column is that of grains and of the field.
-    const bool is_all = is_of_hood(name, hood, "/dust");
-    return is_all ? 1.0 : is_of_hood(name, hood, "/field_dust") ? -1.0 : 0.0;
+Drawn drawn_by(Hoods hoods, const report::RunText& run, const Growth& growth) {
+  const Uncertain field =
+      growth.of([&](const std::string& name) { return is_of(name, hoods, k_field_dust); });
+  Uncertain grains = growth.of([&](const std::string& name) {
+    return is_of(name, hoods, k_dust) ? 1.0 : is_of(name, hoods, k_field_dust) ? -1.0 : 0.0;
   });
-}
-
-/// Of a point with `hood`, empty: of the plain run, all of its own.
-HoodTrial trial_of(const report::RunText& run, double flow, const std::string& hood) {
-  const Growth growth(run);
-  HoodTrial trial{.flow = flow};
-  trial.load = growth.of([](const std::string& name) { return name == "mass_emitted"; }).value;
-  Uncertain grains = drawn_of_grains(growth, hood);
-  const Uncertain field = drawn_of_field(run, growth, hood);
-  if (const double mass = mass_of_drawn(run); mass > 0.0) {
-    trial.computed = grains.value * growth.duration() / mass;
+  Drawn drawn{.computed = field.value > 0.0 ? -1.0 : 0.0};
+  if (const double mass = mass_of_drawn(run, hoods); mass > 0.0) {
+    drawn.computed = grains.value * growth.duration() / mass;
     // What few grains tell is known no better than by counting.
-    const double counting = mass * std::sqrt(trial.computed) / growth.duration();
-    if (trial.computed > 0.0) grains.error = std::max(grains.error, counting);
-  } else if (field.value == 0.0) {
-    trial.computed = 0.0;
+    const double counting = mass * std::sqrt(drawn.computed) / growth.duration();
+    if (drawn.computed > 0.0) grains.error = std::max(grains.error, counting);
   }
   if (grains.value == 0.0) grains.error = -1.0;
-  trial.drawn = sum(grains, field);
+  drawn.rate = sum(grains, field);
+  return drawn;
+}
+
+HoodTrial trial_of(const report::RunText& run, double flow) {
+  const Growth growth(run);
+  const Drawn tried = drawn_by(Hoods::tried, run, growth);
+  const Drawn others = drawn_by(Hoods::others, run, growth);
+  HoodTrial trial{.flow = flow, .drawn = tried.rate, .drawn_by_others = others.rate};
+  trial.load = growth.of([](const std::string& name) { return name == "mass_emitted"; }).value;
+  const bool is_counted = tried.computed >= 0.0 && others.computed >= 0.0;
+  trial.computed = is_counted ? tried.computed + others.computed : -1.0;
   // Per time: a load that has ended, or is not even, has no amount per tonne.
   const report::Highlights highlights = report::highlights_of(run);
   const bool has_rates = !highlights.leaving.empty();
@@ -274,17 +267,18 @@ std::vector<fs::path> finished_points(const fs::path& study) {
 bool is_study(const fs::path& folder) { return fs::exists(folder / "study.csv"); }
 
 std::optional<Uncertain> HoodTrial::capture() const {
-  const double d = drawn.value, e = escaping.value;
+  const Uncertain all = sum(drawn, drawn_by_others);
+  const double d = all.value, e = escaping.value;
   if (!(d + e > 0.0)) return std::nullopt;
   Uncertain capture{d / (d + e), -1.0};
   if (capture_error >= 0.0) {
     capture.error = capture_error;
     return capture;
   }
-  const bool is_open = (d > 0.0 && drawn.error < 0.0) || (e > 0.0 && escaping.error < 0.0);
-  if (is_open || (drawn.error < 0.0 && escaping.error < 0.0)) return capture;
+  const bool is_open = (d > 0.0 && all.error < 0.0) || (e > 0.0 && escaping.error < 0.0);
+  if (is_open || (all.error < 0.0 && escaping.error < 0.0)) return capture;
   // Errors of the two add in squares, each by its derivative.
-  const double of_drawn = e * std::max(drawn.error, 0.0);
+  const double of_drawn = e * std::max(all.error, 0.0);
   const double of_escaping = d * std::max(escaping.error, 0.0);
   capture.error = std::hypot(of_drawn, of_escaping) / ((d + e) * (d + e));
   return capture;
@@ -293,15 +287,17 @@ std::optional<Uncertain> HoodTrial::capture() const {
 HoodTrial mean_of(std::span<const HoodTrial> trials) {
   if (trials.size() == 1) return trials.front();
   HoodTrial mean{.flow = trials.front().flow, .computed = 0.0, .replicas = trials.size()};
-  std::vector<Uncertain> drawn, escaping, captures;
+  std::vector<Uncertain> drawn, drawn_by_others, escaping, captures;
   for (const HoodTrial& trial : trials) {
     drawn.push_back(trial.drawn);
+    drawn_by_others.push_back(trial.drawn_by_others);
     escaping.push_back(trial.escaping);
     if (const auto capture = trial.capture()) captures.push_back(*capture);
     mean.load += trial.load / static_cast<double>(trials.size());
     mean.computed += trial.computed;
   }
   mean.drawn = mean_of_replicas(drawn);
+  mean.drawn_by_others = mean_of_replicas(drawn_by_others);
   mean.escaping = mean_of_replicas(escaping);
   if (captures.size() >= k_min_replicas) mean.capture_error = mean_of_replicas(captures).error;
   return mean;
@@ -315,10 +311,10 @@ HoodResults hood_results(const fs::path& study) {
     const report::RunText run = report::read_run_text(folder);
     const std::string file = (folder / "scenario.yaml").string();
     if (const auto hood = hood_of(io::read_text(file), file)) {
-      trials[hood->place][hood->flow].push_back(trial_of(run, hood->flow, k_hood_body));
+      trials[hood->place][hood->flow].push_back(trial_of(run, hood->flow));
       openings[hood->place] = hood->opening;
     } else {
-      plain.push_back(trial_of(run, 0.0, {}));
+      plain.push_back(trial_of(run, 0.0));
     }
   }
   if (trials.empty()) {

@@ -22,16 +22,17 @@ struct Uncertain {
 /// What a hood did at one flow, over the time after its flow had come about. Rates are of dust; one
 /// that still changes has as its error how far stretches of the time lie from the mean.
 struct HoodTrial {
-  double flow = 0.0;         ///< [m3/s]
-  Uncertain drawn;           ///< [kg/s] through the hood; of the plain run, through its own
-  Uncertain escaping;        ///< [kg/s] through the openings and open sides that are watched
-  double load = 0.0;         ///< [kg/s] released, dust and all; 0 without grains
-  double computed = -1.0;    ///< computed grains of dust that the hood has drawn; negative: a field
-  std::size_t replicas = 1;  ///< runs that it is the mean of
+  double flow = 0.0;          ///< [m3/s]
+  Uncertain drawn;            ///< [kg/s] through the hood that is tried; none in the plain run
+  Uncertain drawn_by_others;  ///< [kg/s] through hoods that stand there anyway
+  Uncertain escaping;         ///< [kg/s] through the openings and open sides that are watched
+  double load = 0.0;          ///< [kg/s] released, dust and all; 0 without grains
+  double computed = -1.0;  ///< computed grains of dust that all hoods have drawn; negative: a field
+  std::size_t replicas = 1;     ///< runs that it is the mean of
   double capture_error = -1.0;  ///< [-] of three replicas or more; negative: that of both rates
 
-  /// Drawn over drawn and escaping; nothing where neither was seen. Without an error where one of
-  /// the two rates has none.
+  /// What all hoods draw over that and what escapes; nothing where neither was seen. Without an
+  /// error where one of the two rates has none.
   [[nodiscard]] std::optional<Uncertain> capture() const;
 };
 
@@ -47,6 +48,9 @@ struct HoodPlace {
 struct HoodResults {
   std::vector<HoodPlace> places;
   std::optional<HoodTrial> plain;  ///< without a hood that is tried
+
+  /// Do hoods draw that stand there anyway?
+  [[nodiscard]] bool has_others() const;
 };
 
 /// The mean of trials of one hood with other seeds. Its errors are those of the trials in the mean,
@@ -74,9 +78,10 @@ inline constexpr double k_few_drawn = 20.0;
 /// Whether the folder holds a study, finished or not.
 [[nodiscard]] bool is_study(const std::filesystem::path& folder);
 
-/// The smallest flow [m3/s] at which a place captures `wanted` (0 to 1), between two trials on a
-/// straight line; nothing where no trial reaches it, or the smallest is above it already and
-/// `is_bound` is set: then the flow is an upper bound.
+/// The smallest flow [m3/s] at which a hood at a place, with those that stand there anyway,
+/// captures `wanted` (0 to 1), between two trials on a straight line; nothing where no trial
+/// reaches it, or the smallest is above it already and `is_bound` is set: then the flow is an upper
+/// bound.
 struct NeededFlow {
   double flow = 0.0;
   bool is_bound = false;

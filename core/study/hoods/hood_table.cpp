@@ -3,13 +3,13 @@
 #include "study/hoods/hood_results.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 namespace dust::study {
 namespace {
 
-using Row = std::array<std::string, 5>;
+using Row = std::vector<std::string>;
 
 /// Flows of one table, all in the unit that suits the largest.
 class FlowUnit {
@@ -63,7 +63,7 @@ std::size_t width_of(const std::string& text) {
 }
 
 std::string aligned(const std::vector<Row>& rows) {
-  std::array<std::size_t, 5> widths{};
+  std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const Row& row : rows) {
     for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], width_of(row[c]));
   }
@@ -98,19 +98,30 @@ std::string needed_text(const HoodPlace& place, double wanted, const FlowUnit& u
 std::string hood_table(const HoodResults& results, double wanted) {
   const HoodScale scale(results);
   const FlowUnit unit(results);
-  std::vector<Row> rows = {{"place", "flow", "drawn out [" + scale.unit() + "]",
-                            "escapes [" + scale.unit() + "]", "capture"}};
+  // Hoods that stand there anyway have a column where there are any.
+  const bool has_others = results.has_others();
+  const std::string unit_text = " [" + scale.unit() + "]";
+  std::vector<Row> rows;
+  const auto add = [&](Row row, std::string by_others, std::string escapes, std::string capture) {
+    if (has_others) row.push_back(std::move(by_others));
+    row.push_back(std::move(escapes));
+    row.push_back(std::move(capture));
+    rows.push_back(std::move(row));
+  };
+  const auto add_trial = [&](Row row, const HoodTrial& trial, std::string capture) {
+    const double factor = scale.factor(trial);
+    add(std::move(row), estimate_text(trial.drawn_by_others, factor),
+        estimate_text(trial.escaping, factor), std::move(capture));
+  };
+  add({"place", "flow", "drawn out" + unit_text}, "by other hoods" + unit_text,
+      "escapes" + unit_text, has_others ? "capture by all" : "capture");
   if (results.plain) {
-    const double factor = scale.factor(*results.plain);
-    const Uncertain& drawn = results.plain->drawn;
-    rows.push_back({"plain", "-", drawn.value > 0.0 ? estimate_text(drawn, factor) : "-",
-                    estimate_text(results.plain->escaping, factor), "-"});
+    add_trial({"plain", "-", "-"}, *results.plain, has_others ? capture_text(*results.plain) : "-");
   }
   for (const HoodPlace& place : results.places) {
     for (const HoodTrial& trial : place.trials) {
-      const double factor = scale.factor(trial);
-      rows.push_back({place.name, unit.text(trial.flow), estimate_text(trial.drawn, factor),
-                      estimate_text(trial.escaping, factor), capture_text(trial)});
+      const std::string drawn = estimate_text(trial.drawn, scale.factor(trial));
+      add_trial({place.name, unit.text(trial.flow), drawn}, trial, capture_text(trial));
     }
   }
   std::string text = aligned(rows) + "\nSmallest flow that captures " +
