@@ -59,6 +59,11 @@ void check_range(const sdk::Parameter& p) {
     require(range.contains(v), "the default of " + name.substr(4) + ", " + base::digits_text(v, 6) +
                                    ", is outside its own range: " + ends);
   }
+  for (const double end : {p.usual.low, p.usual.high}) {
+    require(!std::isfinite(end) || range.contains(end) || end == range.low || end == range.high,
+            "what is usual of " + name.substr(4) + ", " + base::digits_text(end, 6) +
+                ", is outside its range: " + ends);
+  }
   const auto* text = std::get_if<std::string>(&p.default_value);
   require(text == nullptr || text->empty() || p.options.empty() ||
               std::find(p.options.begin(), p.options.end(), *text) != p.options.end(),

@@ -507,6 +507,9 @@ class Sensor : public Guarded<sdk::Sensor> {
   [[nodiscard]] bool wants_face_fluxes() const override {
     return get("wants_face_fluxes", &sdk::Sensor::wants_face_fluxes);
   }
+  [[nodiscard]] bool wants_fluid() const override {
+    return get("wants_fluid", &sdk::Sensor::wants_fluid);
+  }
   void series(sdk::FigureSink& sink) const override {
     CheckedFigures checked(sink);
     ask("series", "the columns of series.csv", &sdk::Sensor::series, checked);

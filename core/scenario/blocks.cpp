@@ -87,11 +87,13 @@ const ParameterSchema& MaterialBlock::schema() {
     SchemaOf<MaterialBlock> s;
     s.number(&MaterialBlock::density, "density", dimension::density, "Density of the solid.")
         .symbol("rho")
-        .above(0);
+        .above(0)
+        .usual(10, 25000);
     s.number(&MaterialBlock::young_modulus, "young_modulus", dimension::pressure,
              "Modulus of elasticity.")
         .symbol("E")
-        .above(0);
+        .above(0)
+        .usual(0, 1.3e12);
     s.number(&MaterialBlock::poisson_ratio, "poisson_ratio", dimension::none, "Poisson's ratio.")
         .symbol("nu")
         .above(-1)
@@ -385,11 +387,13 @@ const ParameterSchema& FluidBlock::schema() {
         .at_most(100000);
     s.number(&FluidBlock::density, "density", dimension::density, "Density of the fluid.")
         .symbol("rho")
-        .above(0);
+        .above(0)
+        .usual(0.05, 25000);
     s.number(&FluidBlock::viscosity, "viscosity", dimension::dynamic_viscosity,
              "Dynamic viscosity of the fluid.")
         .symbol("mu")
-        .above(0);
+        .above(0)
+        .usual(1e-6, 1000);
     s.text(&FluidBlock::momentum_set, "momentum_set",
            "Form of the momentum equation: set I, II or III.")
         .one_of({"I", "II", "III"})
@@ -420,11 +424,13 @@ const ParameterSchema& RegionBlock::schema() {
     s.vector(&RegionBlock::max, "max", dimension::length, "Upper corner of the region.");
     s.number(&RegionBlock::density, "density", dimension::density, "Density of the fluid there.")
         .symbol("rho")
-        .above(0);
+        .above(0)
+        .usual(0.05, 25000);
     s.number(&RegionBlock::viscosity, "viscosity", dimension::dynamic_viscosity,
              "Dynamic viscosity of the fluid there.")
         .symbol("mu")
-        .above(0);
+        .above(0)
+        .usual(1e-6, 1000);
     return s.build();
   }();
   return made;

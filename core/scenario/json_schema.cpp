@@ -27,6 +27,8 @@ std::string description(const Parameter& p) {
   if (!unit.empty()) text += " [" + unit + "; " + example_units(p.dimension) + "]";
   const std::string range = range_text(p);
   if (!range.empty()) text += " " + range;
+  const std::string usual = usual_text(p);
+  if (!usual.empty()) text += " (usual: " + usual + ")";
   const std::string standard = default_text(p);
   if (!p.is_required && !standard.empty()) text += " (default " + standard + ")";
   return text;

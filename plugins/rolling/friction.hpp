@@ -25,7 +25,10 @@ class RollingFriction : public sdk::RollingLaw {
 /// `what` says how the couple depends on it.
 template <class P>
 void declare_rolling_friction(sdk::SchemaOf<P>& s, const char* what) {
-  s.number(&P::friction, "friction", sdk::dimension::none, what).symbol("\\mu_r").at_least(0);
+  s.number(&P::friction, "friction", sdk::dimension::none, what)
+      .symbol("\\mu_r")
+      .at_least(0)
+      .usual(0, 2);
 }
 
 inline constexpr const char* k_couple_is_bounded =

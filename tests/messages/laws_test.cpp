@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -117,6 +118,54 @@ TEST_CASE("a scenario with every kind of law shall be well") {
   const Reported t = reported();
   CHECK(t.errors.empty());
   CHECK(t.warnings.empty());
+}
+
+TEST_CASE("values far from what is usual shall run, with a question after their unit") {
+  const Reported friction = reported("friction: 0.5}", "friction: 30}");
+  CHECK(friction.errors.empty());
+  REQUIRE(friction.warnings.size() == 1);
+  CHECK(friction.warnings[0] ==
+        "s.yaml:19:65: warning: interactions[0].contact.friction: 30 is far from what is usual, "
+        "0 to 2: is it meant?");
+  const Reported tension = reported("72 mN/m", "72 N/m");
+  // And what it does to soft grains.
+  CHECK(std::any_of(tension.warnings.begin(), tension.warnings.end(), [](const std::string& line) {
+    return line.ends_with(
+        "interactions[1].cohesion.surface_tension: 72 N/m is far from what is usual, 0.01 to 2 "
+        "N/m: is its unit right?");
+  }));
+  // A rough wall, mercury.
+  CHECK(reported("friction: 0.5}", "friction: 1.2}").warnings.empty());
+  CHECK(reported("72 mN/m", "485 mN/m").warnings.empty());
+}
+
+TEST_CASE("a gas as thick as syrup shall be warned of") {
+  const auto of = [](const std::string& density, const std::string& viscosity) {
+    return reported("fluid: none",
+                    "fluid: {cells: [5, 5, 25], density: " + density + ", viscosity: " + viscosity +
+                        "}\ndrag: {model: gidaspow}\nvoidage: {model: centre}",
+                    {{"domain.boundaries.bottom.air", "{model: no_slip}"},
+                     {"domain.boundaries.top.air", "{model: static_pressure, pressure: 0}"}});
+  };
+  const Reported thick = of("1.2", "18 Pa s");
+  INFO((thick.errors.empty() ? "" : thick.errors[0]));
+  REQUIRE(thick.warnings.size() == 1);
+  CHECK(thick.warnings[0].find("warning: fluid.viscosity: 18 Pa s is far from that of a gas, which "
+                               "1.2 kg/m3 speaks for (5e-06 to 0.0002 Pa s") != std::string::npos);
+  CHECK(of("1.2", "18e-6 Pa s").warnings.empty());
+  CHECK(of("1260", "1.4 Pa s").warnings.empty());  // glycerol
+}
+
+TEST_CASE("a sensor of the air without air shall be warned of") {
+  const std::string sensors =
+      "sensors:\n  suction: {model: low_pressure, min: [0, 0, 0], max: [10, 10, 50 mm]}\n"
+      "  still: {model: bed_height, base: [0, 0, 0]}\n";
+  const Reported dry = reported("fluid: none", sensors + "fluid: none");
+  CHECK(dry.errors.empty());
+  REQUIRE(dry.warnings.size() == 1);
+  CHECK(dry.warnings[0].ends_with(
+      "warning: sensors.suction: looks at the fluid, and fluid is none: it has nothing to tell; "
+      "take it out, or declare a fluid"));
 }
 
 TEST_CASE("the resolved scenario shall hold every law with its parameters") {

@@ -50,7 +50,9 @@ std::string default_or_required(const sdk::Parameter& p) {
 }
 
 std::string allowed(const sdk::Parameter& p) {
-  return p.options.empty() ? scenario::range_text(p) : scenario::listed(p.options);
+  if (!p.options.empty()) return scenario::listed(p.options);
+  const std::string usual = scenario::usual_text(p);
+  return scenario::range_text(p) + (usual.empty() ? "" : "; usual: " + usual);
 }
 
 void print_text(const Subject& subject) {
@@ -105,6 +107,7 @@ Json json_of(const Subject& subject) {
                 {"unit", scenario::si_unit(p.dimension)},
                 {"required", p.is_required},
                 {"range", scenario::range_text(p)},
+                {"usual", scenario::usual_text(p)},
                 {"sentence", p.sentence}};
     if (!p.is_required) one["default"] = scenario::default_text(p);
     if (!p.options.empty()) one["options"] = p.options;

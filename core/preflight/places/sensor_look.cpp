@@ -34,6 +34,11 @@ void check_first_looks(const scenario::Setup& setup, std::span<const double> cla
   for (const scenario::SensorSpec& spec : setup.sensors) {
     if (is_refused(spec, diagnostics)) continue;
     const auto sensor = registry.create_as<sdk::Sensor>(spec.model);
+    if (!setup.fluid && sensor->wants_fluid()) {
+      diagnostics.warning(spec.model.where, spec.model.path +
+                                                ": looks at the fluid, and fluid is none: it has "
+                                                "nothing to tell; take it out, or declare a fluid");
+    }
     try {
       sensor->observe(world);
     } catch (const std::exception& problem) {

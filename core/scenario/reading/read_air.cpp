@@ -15,6 +15,22 @@ namespace {
 
 /// Cells and faces are counted in 32 bits, several per cell.
 constexpr double k_max_cells = 2e8;
+/// [kg/m3] Fluids below this are gases, whose viscosity [Pa s] hardly differs.
+constexpr double k_densest_gas = 30.0;
+constexpr double k_thinnest_gas = 5e-6;
+constexpr double k_thickest_gas = 2e-4;
+
+/// 18 in place of 18e-6 is a usual viscosity, but of no gas.
+void check_gas(Reading& reading, const Node& block, const FluidBlock& fluid) {
+  if (fluid.density >= k_densest_gas) return;
+  if (fluid.viscosity >= k_thinnest_gas && fluid.viscosity <= k_thickest_gas) return;
+  reading.diagnostics.warning(
+      mark_of(block, "viscosity"),
+      "fluid.viscosity: " + number_text(fluid.viscosity) +
+          " Pa s is far from that of a gas, which " + number_text(fluid.density) +
+          " kg/m3 speaks for (" + number_text(k_thinnest_gas) + " to " +
+          number_text(k_thickest_gas) + " Pa s; air has 1.8e-05): is its unit right?");
+}
 
 void check_region(Reading& reading, const Entry& entry, const std::string& path,
                   const RegionBlock& region) {
@@ -89,6 +105,7 @@ void read_fluid(Reading& reading, MapReader& top) {
                                                       " cells; at most " +
                                                       number_text(k_max_cells) + " can be counted");
   }
+  check_gas(reading, entry->value, fluid);
   spec.density = fluid.density;
   spec.viscosity = fluid.viscosity;
   spec.momentum_set = fluid.momentum_set;

@@ -71,6 +71,13 @@ std::string range_text(const sdk::Parameter& p) {
   return text + tail;
 }
 
+std::string usual_text(const sdk::Parameter& p) {
+  if (!std::isfinite(p.usual.low) || !std::isfinite(p.usual.high)) return {};
+  const std::string unit = si_unit(p.dimension);
+  return number_text(p.usual.low) + " to " + number_text(p.usual.high) +
+         (unit.empty() ? "" : " " + unit);
+}
+
 std::string default_text(const sdk::Parameter& p) {
   if (p.is_required) return {};
   const Node node = written_value(p.default_value);

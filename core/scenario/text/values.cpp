@@ -91,9 +91,18 @@ class ValueReader {
     return value;
   }
   bool in_range(const Node& node, double value) {
-    if (parameter_.range.contains(value)) return true;
+    if (parameter_.range.contains(value)) {
+      if (!parameter_.usual.contains(value)) warn_of_unusual(node);
+      return true;
+    }
     fail(node, printable(node.text) + " is outside " + range_text(parameter_) + degrees(node));
     return false;
+  }
+  void warn_of_unusual(const Node& node) {
+    const bool has_unit = parameter_.dimension != sdk::dimension::none;
+    diagnostics_.warning(node.where, path_ + ": " + printable(node.text) +
+                                         " is far from what is usual, " + usual_text(parameter_) +
+                                         ": " + (has_unit ? "is its unit right?" : "is it meant?"));
   }
   /// What a bare number that is too large for an angle is mostly meant to be.
   std::string degrees(const Node& node) const {

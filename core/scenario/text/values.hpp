@@ -19,6 +19,8 @@ Node written_value(const sdk::Value& value);
 
 /// "0 < e <= 1", "speed >= 0 m/s"; "" for a range without ends.
 std::string range_text(const sdk::Parameter& parameter);
+/// "1e-6 to 1000 Pa s"; empty where all values are usual.
+std::string usual_text(const sdk::Parameter& parameter);
 
 /// The default as text in SI, "" for none.
 std::string default_text(const sdk::Parameter& parameter);

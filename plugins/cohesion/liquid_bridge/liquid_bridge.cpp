@@ -41,7 +41,8 @@ class LiquidBridge final : public sdk::CohesionLaw {
     s.number(&Parameters::surface_tension, "surface_tension", sdk::dimension::surface_energy,
              "Surface tension of the liquid.")
         .symbol("\\gamma")
-        .above(0);
+        .above(0)
+        .usual(0.01, 2);
     s.number(&Parameters::contact_angle, "contact_angle", sdk::dimension::angle,
              "Angle at which the liquid meets the grains.")
         .symbol("\\theta")

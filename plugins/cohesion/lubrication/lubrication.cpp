@@ -34,7 +34,8 @@ class Lubrication final : public sdk::CohesionLaw {
     s.number(&Parameters::viscosity, "viscosity", sdk::dimension::dynamic_viscosity,
              "Viscosity of the fluid between the grains.")
         .symbol("\\mu")
-        .above(0);
+        .above(0)
+        .usual(1e-6, 1000);
     s.number(&Parameters::smallest_gap, "smallest_gap", sdk::dimension::none,
              "Gap over R* at which the force stops growing: the grains' roughness.")
         .symbol("\\delta_0")

@@ -187,7 +187,8 @@ class HertzMindlin final : public sdk::ContactLaw {
     s.number(&Parameters::friction, "friction", sdk::dimension::none,
              "Coefficient of sliding friction; limits spring and damper together.")
         .symbol("\\mu_s")
-        .at_least(0);
+        .at_least(0)
+        .usual(0, 2);
     s.text(&Parameters::tangential, "tangential",
            "Conventions of spring, damper and slip limit: those of this law, or those of LIGGGHTS "
            "for parameters that were calibrated there.")

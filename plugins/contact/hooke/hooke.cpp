@@ -64,7 +64,8 @@ class Hooke final : public sdk::ContactLaw {
     s.number(&Parameters::friction, "friction", sdk::dimension::none,
              "Coulomb's coefficient: the tangential force never exceeds it times the normal one.")
         .symbol("\\mu_s")
-        .at_least(0);
+        .at_least(0)
+        .usual(0, 2);
     return s.build();
   }
   static sdk::ModelInfo describe() {

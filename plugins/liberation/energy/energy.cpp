@@ -26,9 +26,10 @@ class Energy final : public sdk::LiberationLaw {
     sdk::SchemaOf<Parameters> s;
     s.number(&Parameters::binding_energy, "binding_energy", sdk::dimension::specific_energy,
              "Energy dissipated in contacts that sets a mass of dust free, for dust of the "
-             "reference diameter at the reference moisture; some 1e3 to 1e8 J/kg.")
+             "reference diameter at the reference moisture.")
         .symbol("e_b")
-        .above(0);
+        .above(0)
+        .usual(1e2, 1e9);
     s.number(&Parameters::reference_diameter, "reference_diameter", sdk::dimension::length,
              "Diameter of the dust that the binding energy is given for.")
         .symbol("d_0")

@@ -51,6 +51,7 @@ class AirFlow final : public sdk::Sensor {
   }
 
   [[nodiscard]] bool wants_face_fluxes() const override { return true; }
+  [[nodiscard]] bool wants_fluid() const override { return true; }
   void observe(const sdk::WorldView& world) override {
     if (sdk::FluidFaces(world.fluid, axis_).is_empty()) return;
     const formula::Passing found = formula::through(world.fluid, axis_, p_.min, p_.max);

@@ -59,6 +59,7 @@ class Bubbles final : public sdk::Sensor {
     }
   }
 
+  [[nodiscard]] bool wants_fluid() const override { return true; }
   void observe(const sdk::WorldView& world) override {
     // First: before a run there are no cells yet, but the axis is known.
     find_axis(world);

@@ -39,6 +39,7 @@ class Exposure final : public sdk::Sensor, public sdk::DustObserver {
     highest_.assign(p.points.size(), 0.0);
   }
 
+  [[nodiscard]] bool wants_fluid() const override { return true; }
   void observe(const sdk::WorldView&) override {}
 
   void observe_dust(const sdk::WorldView& world, const sdk::DustColumns& dust) override {

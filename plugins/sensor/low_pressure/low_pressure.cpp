@@ -133,6 +133,7 @@ class LowPressure final : public sdk::Sensor {
     }
   }
 
+  [[nodiscard]] bool wants_fluid() const override { return true; }
   void observe(const sdk::WorldView& world) override {
     const sdk::FluidColumns& f = world.fluid;
     if (f.pressure.empty()) return;

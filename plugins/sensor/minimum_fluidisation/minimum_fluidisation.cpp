@@ -60,6 +60,7 @@ class MinimumFluidisation final : public sdk::Sensor {
     }
   }
 
+  [[nodiscard]] bool wants_fluid() const override { return true; }
   void observe(const sdk::WorldView& world) override {
     const sdk::FluidCells cells(world.fluid);
     if (cells.is_empty() || !sdk::is_after(world, p_.after)) return;

@@ -49,6 +49,7 @@ class PressureDrop final : public sdk::Sensor {
     }
   }
 
+  [[nodiscard]] bool wants_fluid() const override { return true; }
   void observe(const sdk::WorldView& world) override {
     const sdk::FluidCells cells(world.fluid);
     if (cells.is_empty()) return;

@@ -63,6 +63,7 @@ class Probe final : public sdk::Sensor {
     means_ = sdk::BatchMeans(values_.size());
   }
 
+  [[nodiscard]] bool wants_fluid() const override { return true; }
   void observe(const sdk::WorldView& world) override {
     const sdk::FluidColumns& f = world.fluid;
     const sdk::FluidCells cells(f);

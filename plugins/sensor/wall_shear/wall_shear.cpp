@@ -44,6 +44,7 @@ class WallShear final : public sdk::Sensor {
     }
   }
 
+  [[nodiscard]] bool wants_fluid() const override { return true; }
   void observe(const sdk::WorldView& world) override {
     const sdk::FluidColumns& f = world.fluid;
     const sdk::FluidCells cells(f);

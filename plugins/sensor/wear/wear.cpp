@@ -34,11 +34,13 @@ class Wear final : public sdk::Sensor {
     s.number(&Parameters::coefficient, "coefficient", sdk::dimension::none,
              "Wear coefficient of Archard's law for wall and grains.")
         .symbol("k")
-        .above(0);
+        .above(0)
+        .usual(1e-9, 1);
     s.number(&Parameters::hardness, "hardness", sdk::dimension::pressure,
              "Hardness of the wall's material.")
         .symbol("H")
-        .above(0);
+        .above(0)
+        .usual(1e6, 1.5e11);
     sdk::declare_steady(s);
     return s.build();
   }

@@ -118,6 +118,8 @@ TEST_CASE("a drag law that is wrong shall be told by the rule it breaks") {
         "the parameter 'size' can have no value: at least 2 and at most 1");
   CHECK(seen.broken(declared([](auto& s) { s.above(0); }), "says what it is") ==
         "the default of parameter 'size', 0, is outside its own range: above 0 and at most inf");
+  CHECK(seen.broken(declared([](auto& s) { s.at_least(0).usual(-1, 2); }), "says what it is") ==
+        "what is usual of parameter 'size', -1, is outside its range: at least 0 and at most inf");
   seen.check_complete(true);
 }
 

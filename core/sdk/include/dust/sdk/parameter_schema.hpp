@@ -44,6 +44,7 @@ struct Parameter {
   ParameterType type = ParameterType::number;
   Dimension dimension;
   Range range;
+  Range usual;  ///< a value outside is run, with a warning: it may be meant in another unit
   bool is_required = true;
   Value default_value;
   std::string sentence;
@@ -64,6 +65,8 @@ using ParameterSchema = std::vector<Parameter>;
 ///     .symbol("e").above(0).at_most(1);
 /// schema.number(&Parameters::friction, "friction", dimension::none, "...").at_least(0).optional();
 /// ```
+/// `usual(low, high)` spans what materials and machines have, with room to spare: values outside,
+/// a thousand times off for a forgotten prefix, are warned of.
 /// `optional()` takes the member's own initial value as the default.
 template <class P>
 class SchemaOf {
@@ -101,6 +104,7 @@ class SchemaOf {
   SchemaOf& above(double v) { return last().range.low_is_open = true, at_least(v); }
   SchemaOf& at_most(double v) { return last().range.high = v, *this; }
   SchemaOf& below(double v) { return last().range.high_is_open = true, at_most(v); }
+  SchemaOf& usual(double low, double high) { return last().usual = {low, high}, *this; }
   SchemaOf& one_of(std::vector<std::string> names) {
     return last().options = std::move(names), *this;
   }

@@ -240,6 +240,8 @@ class Sensor : public Model {
   [[nodiscard]] virtual bool wants_walls() const { return false; }
   /// Whether it reads FluidColumns::faces; these are copied only when a sensor does.
   [[nodiscard]] virtual bool wants_face_fluxes() const { return false; }
+  /// Whether it has nothing to tell where there is no fluid.
+  [[nodiscard]] virtual bool wants_fluid() const { return false; }
 };
 
 }  // namespace dust::sdk
