@@ -28,6 +28,10 @@ class Diagnostics {
   [[nodiscard]] bool is_resolved_file(const std::string& file) const {
     return resolved_files_.contains(file);
   }
+  /// The same of files that another one has read.
+  void note_resolved_files_of(const Diagnostics& other) {
+    resolved_files_.insert(other.resolved_files_.begin(), other.resolved_files_.end());
+  }
   void error(const Mark& where, std::string text);
   void warning(const Mark& where, std::string text);
 

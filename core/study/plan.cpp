@@ -234,6 +234,7 @@ struct Planner::Impl {
                                const std::string& with = {}) {
     Diagnostics own;
     own.add_file(spec.file.generic_string());
+    own.note_resolved_files_of(diagnostics);
     Node number = Node::make_text(std::to_string(seed));
     number.where = spec.where;
     scenario::set_path(root, "seed", number, spec.where, own);

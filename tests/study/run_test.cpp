@@ -252,6 +252,21 @@ TEST_CASE("a dry run shall list the points and write nothing") {
   CHECK_FALSE(fs::exists(folder / "out"));
 }
 
+TEST_CASE("a study of a run's scenario, which the engine wrote, shall not ask for its units") {
+  const TemporaryFolder folder;
+  const fs::path run = folder / "run";
+  // Whole metres: where a user writes them, mm may be meant.
+  const auto done = engine(
+      {"run", k_here / "drop.yaml", "-o", run, "--quiet", "--set", "domain.max=[1, 1, 1 m]"});
+  REQUIRE(done.status == 0);
+  const fs::path study = folder / "study.yaml";
+  std::ofstream(study) << "base: run/scenario.yaml\nmeasure: {emitted: particles.emitted}\n"
+                          "vary: {emitters.feed.mass_flow: [1, 2 g/s]}\n";
+  const auto dry = engine({"study", study, "--dry-run"});
+  CHECK(dry.status == 0);
+  CHECK(dry.err.empty());
+}
+
 TEST_CASE("what a check warns of shall be told by a study, once, with the points that it is of") {
   const TemporaryFolder folder;
   const std::string head = "base: drop.yaml\nmeasure: {emitted: particles.emitted}\n";
