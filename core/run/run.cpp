@@ -54,6 +54,25 @@ std::vector<fs::path> inputs_of(const RunOptions& options, const scenario::ReadR
   return inputs;
 }
 
+/// Owners and graphs, without a state. What is wrong stands where it is written.
+std::unique_ptr<Simulation> make_simulation(const scenario::ReadResult& read,
+                                            const registry::Registry& registry,
+                                            const Branch* branch,
+                                            const std::optional<fs::path>& resumed,
+                                            const fs::path& file) {
+  try {
+    return std::make_unique<Simulation>(read.setup, make_models_of(read, registry, branch, resumed),
+                                        0, read.dust);
+  } catch (const fluid::OpeningError& e) {
+    const auto& suction = read.setup.bodies[e.body()].suction;
+    throw base::UserError(scenario::place(suction->where) + ": error: " + e.what());
+  } catch (const registry::PlacedFault& e) {
+    throw base::UserError(e.line());
+  } catch (const sdk::ModelError& e) {
+    throw base::UserError(file.string() + ": error: " + e.what());
+  }
+}
+
 /// The state at the beginning: what the scenario lets in, or that of another run.
 void start(Simulation& simulation, Branch* branch) {
   try {
@@ -138,19 +157,8 @@ int run_scenario(const RunOptions& options) {
   if (read.start.from && !options.resume) branch.emplace(read, inputs, registry, branching);
   branching.throw_errors();
   Branch* const origin = branch ? &*branch : nullptr;
-  std::unique_ptr<Simulation> simulation;
-  try {
-    const auto resumed = options.resume ? std::optional(output.path()) : std::nullopt;
-    simulation = std::make_unique<Simulation>(
-        read.setup, make_models_of(read, registry, origin, resumed), 0, read.dust);
-  } catch (const registry::PlacedFault& e) {
-    throw base::UserError(e.line());
-  } catch (const fluid::OpeningError& e) {
-    const auto& suction = read.setup.bodies[e.body()].suction;
-    throw base::UserError(scenario::place(suction->where) + ": error: " + e.what());
-  } catch (const sdk::ModelError& e) {
-    throw base::UserError(options.scenario.string() + ": error: " + e.what());
-  }
+  const auto resumed = options.resume ? std::optional(output.path()) : std::nullopt;
+  const auto simulation = make_simulation(read, registry, origin, resumed, options.scenario);
   if (!options.resume) start(*simulation, origin);
   RunFacts facts = facts_of(read, inputs, registry, options, threads);
   facts.models = used_models(read, registry);

@@ -3,8 +3,7 @@
 
 #include "particles/transfer/transfer.hpp"
 #include "registry/registry.hpp"
-#include "run/branch/origin.hpp"
-#include "run/branch/used_models.hpp"
+#include "run/branch/comparison.hpp"
 #include "run/models.hpp"
 #include "run/simulation.hpp"
 #include "run/summary/summary.hpp"
@@ -13,9 +12,7 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace dust::run {
@@ -33,9 +30,9 @@ class Branch {
   Branch(const scenario::ReadResult& now, const std::vector<io::InputFile>& inputs,
          const registry::Registry& registry, scenario::Diagnostics& diagnostics);
 
-  [[nodiscard]] const Origin& origin() const { return origin_; }
+  [[nodiscard]] const Origin& origin() const { return both_.origin(); }
   /// Whether the scenarios differ in nothing that the state depends on.
-  [[nodiscard]] bool is_same() const { return is_same_; }
+  [[nodiscard]] bool is_same() const { return both_.is_same(); }
   /// How many particles the other run's state holds.
   [[nodiscard]] std::int64_t particles_there() const;
   /// Names of the sensors that go on with what they have seen of the other run.
@@ -57,18 +54,10 @@ class Branch {
   [[nodiscard]] const particles::TransferReport& report() const { return report_; }
 
  private:
-  using Leaves = io::ScenarioLeaves;
-
   void check_time();
   void check_domain();
   void report_models();
-  /// Whether a model is no longer the one that the state was kept by.
-  [[nodiscard]] bool is_changed(std::string_view kind, std::string_view name) const;
-  /// Whether a law keeps other numbers per contact: none of the histories can be told apart then.
-  [[nodiscard]] bool has_other_histories() const;
   void check_emitters(const Models& models);
-  [[nodiscard]] bool has_same_densities(const scenario::EmitterSpec& ours,
-                                        const scenario::EmitterSpec& theirs) const;
   /// Those whose settings are not, or had not been, the same since the very beginning: what they
   /// had brought by now was not asked for by these.
   void note_changed_emitters(const CountsBefore& then, const Insertion& insertion);
@@ -77,11 +66,6 @@ class Branch {
   /// Both, after all has been given.
   void note_counts(const Simulation& simulation);
   void report_obstacles(const particles::TransferObstacles& obstacles);
-  [[nodiscard]] bool same(std::string_view path,
-                          std::span<const std::string_view> ignored = {}) const;
-  [[nodiscard]] bool is_same_grid() const;
-  /// Whether grains keep the dust that they carry: what they came with is that of their materials.
-  [[nodiscard]] bool keeps_loads() const;
   void error(const std::string& text) { diagnostics_.error(start().where, "start_from: " + text); }
   void warn(const std::string& text) { diagnostics_.warning(start().where, "start_from: " + text); }
   [[nodiscard]] const scenario::StartSpec& start() const { return *now_.start.from; }
@@ -94,20 +78,13 @@ class Branch {
   void transfer_bodies(Models& models);
   void transfer_particles(const Simulation::Owners& to);
   void transfer_insertion(const Simulation::Owners& to);
-  void transfer_fluid(const Simulation::Owners& to);
-  void transfer_dust(const Simulation::Owners& to);
   void transfer_liberation(const Simulation::Owners& to);
   void transfer_sensors(Models& models);
-  [[nodiscard]] bool keeps_statistics(const std::string& name, const sdk::Sensor& model,
-                                      const std::vector<double>& class_diameters) const;
 
+  Comparison both_;
   const scenario::ReadResult& now_;
   const registry::Registry& registry_;
   scenario::Diagnostics& diagnostics_;
-  Origin origin_;
-  Leaves leaves_;
-  std::vector<ChangedModel> changed_models_;
-  bool is_same_ = false;
   bool is_same_world_ = false;  ///< but for what lets things in and what looks at them
   std::optional<Models> their_models_;
   std::unique_ptr<particles::Dem> their_particles_;

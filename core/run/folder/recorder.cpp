@@ -3,6 +3,7 @@
 
 #include "base/write_error.hpp"
 #include "io/atomic_file.hpp"
+#include "run/branch/origin.hpp"
 #include "run/branch/past.hpp"
 #include "run/snapshots/sensor_fields.hpp"
 #include "run/summary/figure_json.hpp"

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "run/branch/comparison.hpp"
+#include "run/simulation.hpp"
+
+#include <functional>
+#include <string>
+
+namespace dust::run {
+
+/// Takes a warning.
+using Warn = std::function<void(const std::string& text)>;
+
+/// Gives a branch the other run's fluid, on the same grid, and what grains and fluid owe each other
+/// where both are coupled as before. `is_same_world`: nothing but what comes in and what looks at
+/// it differs.
+void transfer_fluid(const Comparison& both, const Simulation::Owners& to, bool is_same_world,
+                    const Warn& warn);
+
+/// The dust in the air and on surfaces; false where it begins as the scenario says.
+bool transfer_dust(const Comparison& both, const Simulation::Owners& to, const Warn& warn);
+
+}  // namespace dust::run
