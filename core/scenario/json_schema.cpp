@@ -328,7 +328,7 @@ Json interaction_schema() {
 }
 
 Json include_schema() {
-  return {{"description", "Files laid under this one, relative to it."},
+  return {{"description", "Files laid under this one, relative to it; null takes away what they give."},
           {"anyOf", Json::array({{{"type", "string"}},
                                  {{"type", "array"}, {"items", {{"type", "string"}}}}})}};
 }

@@ -231,7 +231,10 @@ void merge(Node& base, Node over) {
   const Entry* model = find(over, "model");
   if (model != nullptr && model->value.is_text()) take_model(base, model->value.text);
   for (Entry& entry : over.entries) {
-    if (Entry* same = find(base, entry.key)) {
+    Entry* const same = find(base, entry.key);
+    if (same != nullptr && entry.value.takes_away()) {
+      base.entries.erase(base.entries.begin() + (same - base.entries.data()));
+    } else if (same != nullptr) {
       if (!same->value.is_map() || !entry.value.is_map()) same->where = entry.where;
       merge(same->value, std::move(entry.value));
       same->is_of_other_model = false;
@@ -277,6 +280,15 @@ void spread_unit(Node& list) {
   for (std::size_t n = 0; n + 1 < list.items.size(); ++n) list.items[n].text += " " + units.back();
 }
 
+void take_away(Node& map, const std::string& key, const std::string& path, const Mark& here,
+               Diagnostics& diagnostics) {
+  const auto gone = std::erase_if(map.entries, [&](const Entry& e) { return e.key == key; });
+  if (gone > 0) return;
+  diagnostics.error(here, "there is no '" + printable(key) + "' to take away in " +
+                              (path.empty() ? "the scenario" : path) +
+                              suggestion(key, keys_of(map), "its keys are"));
+}
+
 }  // namespace
 
 void set_path(Node& root, const std::string& path, Node value, const Mark& here,
@@ -295,6 +307,11 @@ void set_path(Node& root, const std::string& path, Node value, const Mark& here,
     if (step.is_index) {
       if (const std::string problem = element_problem(*node, step.index); !problem.empty()) {
         diagnostics.error(here, so_far + problem);
+        return;
+      }
+      if (n + 1 == steps->size() && value.takes_away()) {
+        diagnostics.error(here, "an element of a list cannot be taken away: give " + so_far +
+                                    " anew, without it");
         return;
       }
       if (n + 1 == steps->size()) spread_unit(*node);
@@ -318,6 +335,10 @@ void set_path(Node& root, const std::string& path, Node value, const Mark& here,
     }
     Entry* entry = find(*node, step.key);
     const bool is_last = n + 1 == steps->size();
+    if (value.takes_away() && (entry == nullptr || is_last)) {
+      take_away(*node, step.key, so_far, here, diagnostics);
+      return;
+    }
     if (entry == nullptr) {
       const char* thing = n == 1 ? thing_in(steps->front().key) : nullptr;
       if (thing != nullptr && !(is_last && value.is_map())) {
@@ -351,7 +372,7 @@ void apply_override(Node& root, const Override& override, Diagnostics& diagnosti
   auto value = parse_path(override.path) ? parse_yaml(override.value, here.file, true, diagnostics)
                                          : std::optional(Node{});
   if (!value) return;
-  if (parse_path(override.path) && value->kind == Node::Kind::nothing) {
+  if (parse_path(override.path) && value->kind == Node::Kind::nothing && !value->takes_away()) {
     diagnostics.error(here,
                       "the value is missing: write --set " + printable(override.path) + "=VALUE");
     return;

@@ -10,6 +10,7 @@
 #include <map>
 #include <regex>
 #include <sstream>
+#include <string_view>
 
 namespace dust::scenario {
 namespace {
@@ -33,8 +34,9 @@ std::size_t count_nodes(const Node& node) {
 /// seen, both of which the library's own tree hides.
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  TreeBuilder(const std::string& file, bool is_command_line, Diagnostics& diagnostics)
-      : file_(file), is_command_line_(is_command_line), diagnostics_(diagnostics) {}
+  TreeBuilder(const std::string& text, const std::string& file, bool is_command_line,
+              Diagnostics& diagnostics)
+      : text_(text), file_(file), is_command_line_(is_command_line), diagnostics_(diagnostics) {}
 
   Node& root() { return root_; }
 
@@ -43,6 +45,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node node;
     node.where = mark_of(mark);
+    node.text = null_at(mark);
     if (!open_.empty() && open_.back().has_key) node.where = open_.back().key_mark;
     put(std::move(node), anchor);
   }
@@ -89,6 +92,15 @@ class TreeBuilder final : public YAML::EventHandler {
   [[nodiscard]] Mark mark_of(const YAML::Mark& mark) const {
     if (is_command_line_) return {file_, 0, 0};
     return mark.is_null() ? Mark{file_, 1, 1} : Mark{file_, mark.line + 1, mark.column + 1};
+  }
+  /// The word that means nothing; empty where there is none.
+  [[nodiscard]] std::string null_at(const YAML::Mark& mark) const {
+    if (mark.is_null() || static_cast<std::size_t>(mark.pos) >= text_.size()) return {};
+    const auto rest = std::string_view(text_).substr(static_cast<std::size_t>(mark.pos));
+    for (const char* word : {"~", "null", "Null", "NULL"}) {
+      if (rest.starts_with(word)) return "null";
+    }
+    return {};
   }
   void check_tag(const YAML::Mark& mark, const std::string& tag) {
     if (tag.empty() || tag == "?" || tag == "!") return;
@@ -164,6 +176,7 @@ class TreeBuilder final : public YAML::EventHandler {
     }
   }
 
+  const std::string& text_;
   std::string file_;
   bool is_command_line_;
   Diagnostics& diagnostics_;
@@ -313,12 +326,12 @@ std::optional<Mark> indenting_tab(const std::string& text, const YAML::Exception
 std::optional<Node> parse_yaml(const std::string& text, const std::string& file,
                                bool is_command_line, Diagnostics& diagnostics) {
   if (!check_encoding(text, file, is_command_line, diagnostics)) return std::nullopt;
-  TreeBuilder builder(file, is_command_line, diagnostics);
+  TreeBuilder builder(text, file, is_command_line, diagnostics);
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     parser.HandleNextDocument(builder);
-    TreeBuilder rest(file, is_command_line, diagnostics);
+    TreeBuilder rest(text, file, is_command_line, diagnostics);
     if (parser && parser.HandleNextDocument(rest) && rest.root().kind != Node::Kind::nothing) {
       diagnostics.error(rest.root().where, "a second document: one file holds one scenario");
       return std::nullopt;

@@ -28,6 +28,9 @@ struct Node {
   [[nodiscard]] bool is_text() const { return kind == Kind::text; }
   /// Text without quotes that is `word`.
   [[nodiscard]] bool is_word(std::string_view word) const;
+  /// Written as `null` or `~`, in a file that lies over another: takes away what that gives. A key
+  /// without a value is none.
+  [[nodiscard]] bool takes_away() const { return kind == Kind::nothing && !text.empty(); }
   [[nodiscard]] const Entry* find(std::string_view key) const;
 
   static Node make_map();

@@ -69,6 +69,36 @@ TEST_CASE("a file that is included by a setting shall be refused with the option
   }
 }
 
+TEST_CASE("null in a file that lies over another shall take away what that gives") {
+  const Folder folder;
+  folder.write("s.yaml", k_small);
+  const auto variant = [&](const std::string& text) {
+    return folder.write("variant.yaml", "include: s.yaml\n" + text);
+  };
+  const auto open = variant(
+      "domain: {boundaries: {bottom: {grains: open, material: null, air: {model: total_pressure}}}}"
+      "\nsensors: {stream: ~}\n");
+  const auto setup = read(open).setup;
+  CHECK(setup.domain.sides[4].grains == scenario::GrainSide::open);
+  CHECK(setup.sensors.empty());
+  // A key left empty is a slip, not a wish.
+  CHECK(joined(problems(variant("gravity:\n"))).find("gravity") != std::string::npos);
+  CHECK(joined(problems(variant("gravity: null\n"))).find("missing key 'gravity'") !=
+        std::string::npos);
+}
+
+TEST_CASE("a setting of null shall take away a key that is there, and only such a one") {
+  const Folder folder;
+  const auto file = folder.write("s.yaml", k_small);
+  CHECK(read(file, {{"sensors.stream", "null"}}).setup.sensors.empty());
+  CHECK(joined(problems(file, {{"sensors.strem", "null"}})) ==
+        "--set sensors.strem: error: there is no 'strem' to take away in sensors; did you mean "
+        "'stream'?\n");
+  CHECK(joined(problems(file, {{"interactions[0]", "null"}})) ==
+        "--set interactions[0]: error: an element of a list cannot be taken away: give "
+        "interactions anew, without it\n");
+}
+
 TEST_CASE("files of settings shall lie over the scenario, single settings over them") {
   const Folder folder;
   const auto over = folder.write("over.yaml", "time: {end: 3 s}\nfluid: {density: 1.3}\n");
