@@ -328,9 +328,10 @@ Json interaction_schema() {
 }
 
 Json include_schema() {
-  return {{"description", "Files laid under this one, relative to it; null takes away what they give."},
-          {"anyOf", Json::array({{{"type", "string"}},
-                                 {{"type", "array"}, {"items", {{"type", "string"}}}}})}};
+  return {
+      {"description", "Files laid under this one, relative to it; null takes away what they give."},
+      {"anyOf",
+       Json::array({{{"type", "string"}}, {{"type", "array"}, {"items", {{"type", "string"}}}}})}};
 }
 
 Json start_schema() {

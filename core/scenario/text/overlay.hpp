@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace dust::scenario {
@@ -14,13 +15,18 @@ namespace dust::scenario {
 /// file itself cannot be read.
 std::optional<Node> read_with_includes(const std::filesystem::path& file, Diagnostics& diagnostics);
 
-/// Lays `over` over `base`: maps are merged key by key, everything else is replaced.
+/// Lays `over` over `base`: maps are merged key by key, everything else is replaced; `null` takes
+/// away.
 void merge(Node& base, Node over);
 
 /// The same for two scenarios, where `interactions` are laid over each other pair by pair.
 void merge_scenario(Node& base, Node over);
 
-/// Sets the key at a dotted `path` of `root`; problems are told at `here`.
+/// To do where a map gets another `model`: what it gave beside the one before may be that one's
+/// alone and need not fit.
+void take_model(Node& map, const std::string& model);
+
+/// Sets the key at a dotted `path` of `root`, or takes it away; problems are told at `here`.
 void set_path(Node& root, const std::string& path, Node value, const Mark& here,
               Diagnostics& diagnostics);
 
