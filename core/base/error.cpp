@@ -12,7 +12,9 @@ std::string join(const std::vector<std::string>& lines) {
 
 }  // namespace
 
-UserError::UserError(std::vector<std::string> lines)
-    : std::runtime_error(join(lines)), lines_(std::move(lines)) {}
+UserError::UserError(std::vector<std::string> lines) : UserError(std::move(lines), {}) {}
+
+UserError::UserError(std::vector<std::string> lines, std::vector<std::string> warnings)
+    : std::runtime_error(join(lines)), lines_(std::move(lines)), warnings_(std::move(warnings)) {}
 
 }  // namespace dust::base

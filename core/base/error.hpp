@@ -13,10 +13,14 @@ class UserError : public std::runtime_error {
  public:
   explicit UserError(std::vector<std::string> lines);
   explicit UserError(std::string line) : UserError(std::vector<std::string>{std::move(line)}) {}
+  /// With warnings that were found on the way: what one tells may be why the other is there.
+  UserError(std::vector<std::string> lines, std::vector<std::string> warnings);
   [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   std::vector<std::string> lines_;
+  std::vector<std::string> warnings_;
 };
 
 /// A plugin library that cannot be used; exit status 2.

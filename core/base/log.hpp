@@ -13,6 +13,8 @@ void log_to_file(const std::filesystem::path& file, bool append);
 void log_to_terminal(bool is_verbose);
 void log_info(std::string_view text);
 void log_warning(std::string_view text);
+/// One that the terminal has seen already: into the file alone.
+void log_warning_to_file(std::string_view text);
 void log_error(std::string_view text);
 
 }  // namespace dust::base

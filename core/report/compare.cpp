@@ -86,7 +86,8 @@ std::vector<Figure> field_dust_of(const RunText& run) {
 
 /// "dust_rates", "left/back/per_load": "dust of the field", "left, back"; nothing for what only the
 /// whole list shows.
-std::optional<std::string> headline_name(const Figure& figure, bool is_per_load) {
+std::optional<std::string> headline_name(const RunText& run, const Figure& figure,
+                                         bool is_per_load) {
   std::vector<std::string> parts{""};
   for (const char c : figure.name) {
     if (c == '/') {
@@ -95,8 +96,10 @@ std::optional<std::string> headline_name(const Figure& figure, bool is_per_load)
       parts.back() += c;
     }
   }
-  if (figure.sensor == "dust_outflow" && parts.size() == 2 && parts[1] == "kg") {
-    return "got out, " + parts[0];
+  if (figure.sensor == "dust_outflow" && parts.size() == 2 && parts[1] == "kg_per_h") {
+    // What a hood catches has not got out.
+    const bool is_caught = object_at(run.summary, "hoods").contains(parts[0]);
+    return (is_caught ? "caught, " : "got out, ") + parts[0];
   }
   if (figure.sensor == "dust_on_grains" && parts.size() == 2) {
     if (parts[1] == "set_free_kg") return "set free, " + words(parts[0]);
@@ -126,7 +129,7 @@ bool are_per_load(const RunText& first, const RunText& second) {
 /// Of these what the first screen names: ways out by name, of the rest the sum.
 void add_field_dust(const RunText& run, bool is_per_load, std::vector<Figure>& list) {
   for (Figure figure : field_dust_of(run)) {
-    const auto name = headline_name(figure, is_per_load);
+    const auto name = headline_name(run, figure, is_per_load);
     if (!name) continue;
     figure.sensor = figure.sensor == "dust_rates" ? "dust rate" : "field dust";
     figure.name = *name;
@@ -192,6 +195,9 @@ std::vector<Figure> reported_first(const RunText& run, bool is_per_load) {
     if (!place.y.name.empty()) add("low pressure", "place " + place.name + ", y", place.y);
     add("low pressure", "place " + place.name + ", z", place.z);
     add("low pressure", "place " + place.name + ", depth", place.depth);
+  }
+  for (const Figure& figure : run.figures) {
+    if (figure.towards == "overview") add(words(figure.sensor), words(figure.name), figure);
   }
   const auto number = [&](const char* name, const json& object, const char* key, const char* unit) {
     const auto value = number_at(object, key);

@@ -124,7 +124,7 @@ void RunLoop::open_files() {
   base::log_to_file(recorder_.folder() / "run.log", recorder_.is_resumed());
   for (const std::string& line : facts_.log_header) base::log_info(line);
   // On the terminal they stand since the scenario was read.
-  for (const std::string& warning : facts_.warnings) base::log_info(warning);
+  for (const std::string& warning : facts_.warnings) base::log_warning_to_file(warning);
   recorder_.write_scenario();
   if (recorder_.is_resumed()) {
     base::log_info("resumed at " + std::to_string(simulation_.time()) + " s");

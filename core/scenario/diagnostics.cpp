@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <tuple>
 
 namespace dust::scenario {
@@ -18,6 +19,14 @@ void Diagnostics::error(const Mark& where, std::string text) {
 
 void Diagnostics::warning(const Mark& where, std::string text) {
   warnings_.push_back({where, std::move(text)});
+}
+
+bool Diagnostics::has_error_below(const std::string& path) const {
+  return std::any_of(errors_.begin(), errors_.end(), [&](const Problem& problem) {
+    const std::string& text = problem.text;
+    return text.starts_with(path) && text.size() > path.size() &&
+           std::string_view(".:[").find(text[path.size()]) != std::string_view::npos;
+  });
 }
 
 std::size_t Diagnostics::rank(const std::string& file) const {
@@ -45,7 +54,7 @@ std::vector<std::string> Diagnostics::lines(std::vector<Problem> items, const ch
 }
 
 void Diagnostics::throw_errors() const {
-  if (has_errors()) throw base::UserError(error_lines());
+  if (has_errors()) throw base::UserError(error_lines(), warning_lines());
 }
 
 }  // namespace dust::scenario

@@ -36,6 +36,8 @@ class Diagnostics {
   void warning(const Mark& where, std::string text);
 
   [[nodiscard]] bool has_errors() const { return !errors_.empty(); }
+  /// Whether one tells of the key at `path` or of one below it.
+  [[nodiscard]] bool has_error_below(const std::string& path) const;
   [[nodiscard]] std::size_t error_count() const { return errors_.size(); }
   /// In the order in which they were found.
   [[nodiscard]] const std::vector<Problem>& errors() const { return errors_; }

@@ -127,6 +127,7 @@ int main(int argc, char** argv) {
   try {
     return engine_main(argc, argv);
   } catch (const base::UserError& problem) {
+    for (const std::string& line : problem.warnings()) std::cerr << line << '\n';
     for (const std::string& line : problem.lines()) std::cerr << line << '\n';
     return k_wrong_input;
   } catch (const registry::PlacedFault& problem) {

@@ -136,7 +136,14 @@ TroughParameters trough_of(const Parameters& p) {
     t.head_transition = p.transition > 0.0 ? p.transition : 1.6 * p.width;
     t.tail_transition = p.tail_transition > 0.0 ? p.tail_transition : t.head_transition;
     if (t.head_transition + t.tail_transition > t.length) {
-      throw sdk::ParameterError("head and tail are nearer than both transitions are long");
+      throw sdk::ParameterError(
+          "both transitions, " + base::length_text(t.head_transition) + " and " +
+          base::length_text(t.tail_transition) + ", do not fit between head and tail, which are " +
+          base::length_text(t.length) + " apart" +
+          (p.transition > 0.0
+               ? ": make them shorter"
+               : " (1.6 times the width each): is the unit of width right? Or give a "
+                 "shorter transition"));
     }
   }
   return t;

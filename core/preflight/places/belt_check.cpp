@@ -48,6 +48,16 @@ void check_belts(const scenario::Setup& setup, const ParticleModels& models,
     const Vec3* head = vector_of(spec.shape, "head");
     const Vec3* tail = vector_of(spec.shape, "tail");
     if (head == nullptr || tail == nullptr) continue;
+    const Vec3* up = vector_of(spec.shape, "up");
+    if (up != nullptr &&
+        dot(models.bodies[n].placement(setup.time.end).turn(*up), setup.gravity) > 0.0) {
+      // Told once: with it every belt seems to run backwards.
+      diagnostics.warning(
+          spec.shape.where,
+          "bodies." + spec.name +
+              ": gravity points out of the belt's carrying side: is its sign right?");
+      return;
+    }
     const double speed = speed_to_head(setup, models.bodies[n], *head, *tail);
     if (!(speed < 0.0)) continue;
     diagnostics.warning(spec.motions.front().where,

@@ -1,23 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/places/sensor_look.hpp"
 
-#include <algorithm>
 #include <exception>
 
 namespace dust::preflight {
-namespace {
-
-/// One that is refused already need not be asked.
-bool is_refused(const scenario::SensorSpec& sensor, const scenario::Diagnostics& diagnostics) {
-  return std::any_of(diagnostics.errors().begin(), diagnostics.errors().end(),
-                     [&](const auto& problem) {
-                       return problem.text.starts_with(sensor.model.path + ":") ||
-                              problem.text.starts_with(sensor.model.path + ".");
-                     });
-}
-
-}  // namespace
-
 sdk::WorldView empty_world(const scenario::Setup& setup, std::span<const double> class_diameters) {
   sdk::WorldView world;
   world.interval = setup.time.fluid_step;
@@ -32,7 +18,8 @@ void check_first_looks(const scenario::Setup& setup, std::span<const double> cla
                        const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
   const sdk::WorldView world = empty_world(setup, class_diameters);
   for (const scenario::SensorSpec& spec : setup.sensors) {
-    if (is_refused(spec, diagnostics)) continue;
+    // One that is refused already need not be asked.
+    if (diagnostics.has_error_below(spec.model.path)) continue;
     const auto sensor = registry.create_as<sdk::Sensor>(spec.model);
     if (!setup.fluid && sensor->wants_fluid()) {
       diagnostics.warning(spec.model.where, spec.model.path +

@@ -7,6 +7,7 @@
 #include "run/branch/past.hpp"
 #include "run/dust/hoods.hpp"
 #include "run/summary/summary_dust.hpp"
+#include "scenario/text/suggest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -142,16 +143,20 @@ void Branch::transfer(const Simulation::Owners& to) {
 }
 
 void Branch::transfer_sensors(Models& models) {
+  std::vector<std::string> anew;
   for (std::size_t n = 0; n < models.sensors.size(); ++n) {
     const std::string& name = now_.setup.sensors[n].name;
     sdk::Sensor& sensor = *models.sensors[n];
-    if (both_.keeps_statistics(name, sensor, models.class_diameters)) {
+    if (both_.keeps_statistics(name, models.class_diameters)) {
       origin().state().read({{"sensor." + name, [&](sdk::ArchiveReader& a) { sensor.load(a); }}});
       sensors_going_on_.push_back(name);
     } else if (base::find_named(origin().scenario().setup.sensors, name) != nullptr) {
-      warn("sensors." + name + " begins anew: it, or what it looks at, is set otherwise");
+      anew.push_back(name);
     }
   }
+  if (anew.empty()) return;
+  warn("these sensors begin anew, for something is set otherwise than in that run: " +
+       scenario::listed(anew) + "; a steady_after leaves out the time in which the change settles");
 }
 
 void Branch::note_counts(const Simulation& simulation) {

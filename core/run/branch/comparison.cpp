@@ -22,6 +22,7 @@ constexpr std::array<std::string_view, 10> k_outside_world = {"start_from",
                                                               "sensors",
                                                               "emitters"};
 constexpr std::span k_free = std::span(k_outside_world).first<8>();
+constexpr std::span k_free_and_sensors = std::span(k_outside_world).first<9>();
 
 }  // namespace
 
@@ -33,6 +34,8 @@ Comparison::Comparison(const scenario::ReadResult& now, const std::vector<io::In
       changed_models_(changed_models(origin_.state(), used_models(now, registry))),
       is_same_(changed_models_.empty() &&
                origin_.leaves().first_difference(leaves_, k_free).empty()),
+      is_same_but_sensors_(changed_models_.empty() &&
+                           origin_.leaves().first_difference(leaves_, k_free_and_sensors).empty()),
       is_same_world_(changed_models_.empty() &&
                      origin_.leaves().first_difference(leaves_, k_outside_world).empty()) {}
 
@@ -92,34 +95,11 @@ bool Comparison::has_same_densities(const scenario::EmitterSpec& ours,
                     theirs.more_materials.begin(), theirs.more_materials.end(), is_same_density);
 }
 
-bool Comparison::keeps_statistics(const std::string& name, const sdk::Sensor& model,
+bool Comparison::keeps_statistics(const std::string& name,
                                   const std::vector<double>& class_diameters) const {
-  if (class_diameters != origin_.class_diameters()) return false;
-  const auto* theirs_of_name = base::find_named(origin_.scenario().setup.sensors, name);
-  if (theirs_of_name == nullptr) return false;
-  if (is_changed(theirs_of_name->model.kind, theirs_of_name->model.name)) return false;
-  if (!same("sensors." + name) || !same("dust") || !same("time.fluid_step")) return false;
-  // Sums by cell; and the air, which begins anew on another grid.
-  const bool has_air = now_.setup.fluid.has_value() || origin_.scenario().setup.fluid.has_value();
-  if (has_air && !is_same_grid()) return false;
-  const auto names = [](const auto& things) {
-    std::vector<std::string> all;
-    all.reserve(things.size());
-    for (const auto& thing : things) all.push_back(thing.name);
-    return all;
-  };
-  const auto& theirs = origin_.scenario().setup;
-  if (names(theirs.materials) != names(now_.setup.materials)) return false;
-  // All that was emitted, counted or held weighs what its material weighs now. Other numbers of
-  // materials, as of laws, are what a branch tries: sums mean the same.
-  const auto is_as_dense = [](const auto& a, const auto& b) {
-    return a.properties.density == b.properties.density;
-  };
-  if (!std::equal(theirs.materials.begin(), theirs.materials.end(), now_.setup.materials.begin(),
-                  is_as_dense)) {
-    return false;
-  }
-  return !model.wants_walls() || names(theirs.bodies) == names(now_.setup.bodies);
+  return is_same_but_sensors_ && class_diameters == origin_.class_diameters() &&
+         base::find_named(origin_.scenario().setup.sensors, name) != nullptr &&
+         same("sensors." + name);
 }
 
 }  // namespace dust::run

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dust/sdk/sensor.hpp"
 #include "run/branch/origin.hpp"
 #include "run/branch/used_models.hpp"
 #include "scenario/reader.hpp"
@@ -45,8 +44,9 @@ class Comparison {
   /// Whether what an emitter remembers, be it a number of grains, stands for the same mass.
   [[nodiscard]] bool has_same_densities(const scenario::EmitterSpec& ours,
                                         const scenario::EmitterSpec& theirs) const;
-  /// Whether what a sensor has added up means the same to it.
-  [[nodiscard]] bool keeps_statistics(const std::string& name, const sdk::Sensor& model,
+  /// Whether what a sensor has added up is of what it looks at now. Where anything else is set
+  /// otherwise it is of another plant, and means over both would be of neither.
+  [[nodiscard]] bool keeps_statistics(const std::string& name,
                                       const std::vector<double>& class_diameters) const;
 
  private:
@@ -55,6 +55,7 @@ class Comparison {
   io::ScenarioLeaves leaves_;
   std::vector<ChangedModel> changed_models_;
   bool is_same_ = false;
+  bool is_same_but_sensors_ = false;
   bool is_same_world_ = false;
 };
 

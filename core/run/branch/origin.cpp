@@ -99,6 +99,10 @@ bool has_origin(const scenario::StartSpec& start) {
 }
 
 std::string no_origin_text(const scenario::StartSpec& start) {
+  std::error_code none;
+  if (fs::is_regular_file(start.folder, none)) {
+    return start.folder.string() + " is a file: give the folder of a run's results";
+  }
   return start.folder.string() + " holds no checkpoint.h5: run that scenario first, with -o " +
          base::shell_word(start.folder.string());
 }

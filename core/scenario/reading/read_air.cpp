@@ -19,10 +19,22 @@ constexpr double k_max_cells = 2e8;
 constexpr double k_densest_gas = 30.0;
 constexpr double k_thinnest_gas = 5e-6;
 constexpr double k_thickest_gas = 2e-4;
+/// [kg/m3], [Pa s] Liquids, hot water among them, have more.
+constexpr double k_lightest_liquid = 300.0;
+constexpr double k_thinnest_liquid = 5e-5;
 
-/// 18 in place of 18e-6 is a usual viscosity, but of no gas.
+/// Each by itself may be usual: 18 in place of 18e-6, but of no gas, and 1200 in place of 1.2, but
+/// of no fluid as thin as air.
 void check_gas(Reading& reading, const Node& block, const FluidBlock& fluid) {
-  if (fluid.density >= k_densest_gas) return;
+  if (fluid.density >= k_densest_gas) {
+    if (fluid.density < k_lightest_liquid || fluid.viscosity >= k_thinnest_liquid) return;
+    reading.diagnostics.warning(mark_of(block, "density"),
+                                "fluid.density: " + number_text(fluid.density) +
+                                    " kg/m3 is far from that of a gas, which a viscosity of " +
+                                    number_text(fluid.viscosity) +
+                                    " Pa s speaks for (air has 1.2): is its unit right?");
+    return;
+  }
   if (fluid.viscosity >= k_thinnest_gas && fluid.viscosity <= k_thickest_gas) return;
   reading.diagnostics.warning(
       mark_of(block, "viscosity"),

@@ -32,6 +32,12 @@ void refuse_openings(Reading& reading, MapReader& reader, const Node& dust) {
                 "role say: give the plane_flux `role: opening`, and take openings out");
 }
 
+/// One whose flow could not be read is told so already.
+bool is_refused(const Reading& reading, const std::string& hood) {
+  return reading.diagnostics.has_error_below("bodies." + hood) ||
+         reading.diagnostics.has_error_below("domain.boundaries." + hood);
+}
+
 std::vector<std::string> known_hoods(Reading& reading, const Node& node,
                                      const std::vector<std::string>& hoods) {
   std::vector<std::string> able;
@@ -48,7 +54,7 @@ std::vector<std::string> known_hoods(Reading& reading, const Node& node,
   for (std::size_t n = 0; n < hoods.size(); ++n) {
     if (std::find(able.begin(), able.end(), hoods[n]) != able.end()) {
       known.push_back(hoods[n]);
-    } else if (!reading.names.bodies.is_disabled(hoods[n])) {
+    } else if (!reading.names.bodies.is_disabled(hoods[n]) && !is_refused(reading, hoods[n])) {
       reading.error(mark_of_item(node, "hoods", n),
                     path_of_item("hoods", n) + scenario::in_quotes(hoods[n]) +
                         " extracts nothing: a hood is a body with suction, of a flow above 0, or a "

@@ -22,6 +22,14 @@ bool is_box_in_domain(const scenario::FeedZoneSpec& zone, const DomainSpec& doma
          overlaps(zone.min.z, zone.max.z, domain.min.z, domain.max.z);
 }
 
+/// Loads that could not be read are told so already.
+bool is_any_load_refused(const Reading& reading) {
+  return std::any_of(
+      reading.setup.materials.begin(), reading.setup.materials.end(), [&](const MaterialSpec& m) {
+        return reading.diagnostics.has_error_below("materials." + m.name + ".dust_load");
+      });
+}
+
 void read_feed_zones(Reading& reading, MapReader& dust, Node& written) {
   Node zones = Node::make_map();
   for_each_named(reading, dust, "feed_zones", [&](const Entry& entry, const std::string& path) {
@@ -70,7 +78,7 @@ void read_liberation(Reading& reading, MapReader& dust, Node& written) {
   }
   const bool has_load = std::any_of(reading.dust.loads.begin(), reading.dust.loads.end(),
                                     [](const DustLoadSpec& load) { return !load.share.empty(); });
-  if (!has_load) {
+  if (!has_load && !is_any_load_refused(reading)) {
     reading.error(where,
                   "dust.liberation: no material has a dust_load that could come off: give "
                   "materials: {...: {dust_load: [...]}}, or take dust.liberation out");

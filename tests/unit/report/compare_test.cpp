@@ -138,7 +138,12 @@ TEST_CASE("dust of a field shall be compared: where it goes, what got out, what 
                              {"left/back/per_load", figure(8.0 * rate, "g/t")},
                              {"left/back/class/10_um/per_load", figure(rate, "g/t")},
                              {"deposited/belt/per_load", figure(3.0, "g/t")}};
-    summary["dust_outflow"] = {{"back", {{"kg", 1e-3 * rate}, {"g_per_tonne", 5.0 * rate}}}};
+    summary["dust_outflow"] = {{"back", {{"kg_per_h", rate}, {"g_per_tonne", 5.0 * rate}}},
+                               {"roof", {{"kg_per_h", 2.0 * rate}}}};
+    summary["hoods"] = {{"roof", {{"dust_kg", 1e-3 * rate}}}};
+    summary["sensors"]["load"]["mass_flow"] = {{"value", 80.0 * rate},    {"unit", "kg/s"},
+                                               {"uncertainty", 3.0},      {"role", "detail"},
+                                               {"quantity", "mass_rate"}, {"towards", "overview"}};
     summary["dust_on_grains"] = {
         {"classes", {{"10_um", {{"on_grains_kg", 0.5}, {"set_free_kg", 0.25}}}}},
         {"kept_back_kg", 0.0}};
@@ -156,7 +161,10 @@ TEST_CASE("dust of a field shall be compared: where it goes, what got out, what 
   CHECK(find(comparison.headline, "left, all").second == 20.0);
   CHECK(find(comparison.headline, "left, all").unit == "g/t");
   CHECK(find(comparison.headline, "left, back").in_errors() > 0.0);
-  CHECK(find(comparison.headline, "got out, back").unit == "kg");
+  CHECK(find(comparison.headline, "got out, back").unit == "kg/h");
+  CHECK(find(comparison.headline, "caught, roof").second == 4.0);
+  // What a sensor shows on the first screen compares there, too.
+  CHECK(find(comparison.headline, "mass flow").second == 160.0);
   CHECK(find(comparison.headline, "set free, 10 um").first == 0.25);
   CHECK(find(comparison.headline, "deposited, belt").unit.empty());
   CHECK(find(comparison.quantities, "deposited/belt/per_load").first == 3.0);
