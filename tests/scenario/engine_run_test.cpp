@@ -419,6 +419,24 @@ TEST_CASE("a scenario written by engine new shall be valid in any sizes, without
     // Never over a file that is there.
     CHECK(engine(arguments).status == 2);
   }
+  // Sizes that do not go together are told by their options; nothing is written.
+  const auto refused = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "new");
+    arguments.insert(arguments.end(), {"-o", folder / "x.yaml"});
+    const auto run = engine(arguments);
+    CHECK(run.status == 2);
+    CHECK(!fs::exists(folder / "x.yaml"));
+    return run.err;
+  };
+  CHECK(refused({"hopper", "--outlet", "300 mm"}) ==
+        "engine new: error: --outlet 300 mm in a hopper of --diameter 60 mm: it has to be two "
+        "grains wider; give a wider one\n");
+  CHECK(refused({"transfer", "--grain", "50 mm"})
+            .starts_with("engine new: error: --grain 50 mm in a slice of --width 20 mm: "));
+  CHECK(refused({"transfer", "--flow", "300 t/h"}).find("of the slice") != std::string::npos);
+  CHECK(refused({"transfer", "--drop", "1300"}) ==
+        "engine new: error: --drop: 1300 has no unit and would be 1300 m: write '1300 mm' or "
+        "'1300 m'\n");
   const auto wrong = engine({"new", "hopper", "--mass", "3 mm", "-o", folder / "x.yaml"});
   CHECK(wrong.status == 2);
   CHECK(wrong.err.find("--mass: 'mm' is the unit of a length: a mass is expected") !=

@@ -282,7 +282,7 @@ void add_liberation_table(const Simulation& s, const RunFacts& facts, Json& tabl
   }
   if (rows.empty()) return;
   tables.push_back({{"sensor", "dust_on_grains"},
-                    {"title", "Dust set free from grains"},
+                    {"title", "Dust set free from grains, start-up included"},
                     {"columns", columns},
                     {"rows", rows}});
 }

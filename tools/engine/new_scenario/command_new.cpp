@@ -7,6 +7,7 @@
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -25,6 +26,12 @@ double size_in_si(const Size& size, const std::string& text) {
   const auto value = scenario::to_si(*written, scenario::parse_unit(size.unit)->dimension, error);
   if (!value) throw base::UserError(place + error);
   if (!(*value > 0.0)) throw base::UserError(place + "above 0 is expected, not " + text);
+  // Whole metres are typed by those who think in millimetres.
+  const bool is_length = scenario::parse_unit(size.unit)->dimension == sdk::dimension::length;
+  if (written->unit.empty() && is_length && *value >= 1.0 && *value == std::floor(*value)) {
+    throw base::UserError(place + text + " has no unit and would be " + text + " m: write " +
+                          base::shell_word(text + " mm") + " or " + base::shell_word(text + " m"));
+  }
   return *value;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "new_scenario/new_scenario.hpp"
 
+#include "base/error.hpp"
 #include "base/text.hpp"
 
 #include <algorithm>
@@ -27,6 +28,11 @@ double round_step(double limit) {
     if (step <= limit) return step;
   }
   return 1e-4;
+}
+
+/// Throws base::UserError where sizes do not go together.
+void require(bool do_fit, const std::string& problem) {
+  if (!do_fit) throw base::UserError("engine new: error: " + problem);
 }
 
 std::string head_of(const std::string& name, double end, double fluid_step, const char* what) {
@@ -91,6 +97,14 @@ std::string write_transfer(const std::string& name, const std::vector<double>& s
   const double margin = 0.1;
   // The feed stands clear of the load, which it gives the belt's speed: what slides first piles up.
   const double load = flow / (k_density * k_load_solids * speed * width);
+  constexpr double k_highest_load = 0.5;  // m
+  require(grain <= 0.5 * width, "--grain " + base::length_text(grain) + " in a slice of --width " +
+                                    base::length_text(width) +
+                                    ": the slice has to be two grains wide; give a wider one");
+  require(load <= k_highest_load,
+          "--flow is that of the slice, " + base::length_text(width) +
+              " wide: the load would lie " + base::length_text(load, 3) +
+              " high on it; give the belt's flow times --width over the width of its load");
   const double gap = 4.0 * grain + 1.5 * load;
   const double fall = 0.5;  // [m/s] of the feed
   const double inset = 0.25 * grain;
@@ -145,6 +159,9 @@ std::string write_hopper(const std::string& name, const std::vector<double>& s) 
   const double radius = 0.5 * s[1];
   const double mass = s[2];
   const double grain = s[3];
+  require(s[0] + 2.0 * grain <= s[1], "--outlet " + base::length_text(s[0]) +
+                                          " in a hopper of --diameter " + base::length_text(s[1]) +
+                                          ": it has to be two grains wider; give a wider one");
   const double wall = std::max(1e-3, grain);
   const double loose = mass / (k_density * 0.25 * std::numbers::pi * radius * radius);
   const double height = loose + 4.0 * grain;
