@@ -30,7 +30,10 @@ DUST_KERNEL void velocity_row(int n, const double* throughflow, const double* pa
 
 DUST_KERNEL void mean_row(int n, double share, const double* velocity, double* past) {
 #pragma GCC ivdep
-  for (int i = 0; i < n; ++i) past[i] += share * (velocity[i] - past[i]);
+  for (int i = 0; i < n; ++i) {
+    const double on = past[i] + share * (velocity[i] - past[i]);
+    past[i] = past[i] != 0.0 && velocity[i] != 0.0 ? on : velocity[i];
+  }
 }
 
 /// A direction that the velocity along a row's faces changes in.
@@ -64,7 +67,9 @@ DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, con
     const double carried = u * slope(v, i, s, own.inverse_h) +
                            across_e * slope(v, i, se, e.inverse_h) +
                            across_f * slope(v, i, sf, f.inverse_h);
-    const double all = (u - past[i]) * rate + carried;
+    // A face that a body has just set free has no past: nothing there has been sped up.
+    const double gained = past[i] != 0.0 ? u - past[i] : 0.0;
+    const double all = gained * rate + carried;
     acceleration[i] = static_cast<float>(u != 0.0 ? all : 0.0);
     speed[i] = static_cast<float>(std::sqrt(u * u + across_e * across_e + across_f * across_f));
   }

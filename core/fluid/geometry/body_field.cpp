@@ -13,6 +13,9 @@ namespace {
 
 using sdk::Vec3;
 
+/// Product of two normals below which they look away from each other: the walls of a right-angled
+/// edge do not, however a file rounds its vertices.
+constexpr double k_look_away = -0.05;
 /// A point this close to a surface (in cells) counts as being on it, so inside the body.
 constexpr double k_on_surface = 1e-6;
 /// Openings smaller than this are closed, larger than one minus this are whole.
@@ -284,7 +287,7 @@ std::optional<double> BodyField::passes_through(Vec3 from, Vec3 to) const {
   if (!meets(near, from, along, length, way, in)) return std::nullopt;
   if (!meets(near, to, -along, length, way_back, out)) return std::nullopt;
   // Through a thin body the two surfaces look away from each other; a chord's look the same way.
-  if (dot(in.normal, out.normal) >= 0.0) return std::nullopt;
+  if (dot(in.normal, out.normal) > k_look_away) return std::nullopt;
   return way;
 }
 

@@ -140,6 +140,7 @@ class LowPressure final : public sdk::Sensor {
     if (block_.size() != f.pressure.size()) start(f);
     const bool is_averaging = sdk::is_after(world, p_.averaging_after);
     const double duration = is_averaging ? world.interval : 0.0;
+    note_open(f);
     const float lowest = accumulate(
         f.pressure.size(), {f.pressure.data(), f.open_fraction.data(), f.void_fraction.data()},
         duration, block_.data(), not_air_.data());
@@ -254,11 +255,18 @@ class LowPressure final : public sdk::Sensor {
     total_ = block_;
     squares_ = block_;
     not_air_ = block_;
-    is_open_.resize(block_.size());
-    for (std::size_t i = 0; i < block_.size(); ++i) is_open_[i] = f.open_fraction[i] >= k_min_open;
+    is_open_.assign(block_.size(), 1);
     blocks_ = 0;
     block_duration_ = 0.0;
     averaged_ = 0.0;
+  }
+
+  /// Open is what no body takes while pressures are averaged; before, what none takes now.
+  void note_open(const sdk::FluidColumns& f) {
+    const bool is_first = !(averaged_ > 0.0);
+    for (std::size_t i = 0; i < is_open_.size(); ++i) {
+      is_open_[i] = (is_first || is_open_[i] != 0) && f.open_fraction[i] >= k_min_open ? 1 : 0;
+    }
   }
 
   /// Cells in or near a body or the stream.

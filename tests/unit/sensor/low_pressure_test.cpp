@@ -225,6 +225,27 @@ TEST_CASE("no place shall lie nearer than its clearance to a body") {
   CHECK(first_height(1e-5) == test::approx(18.5e-3));
 }
 
+TEST_CASE("a body that is gone before the averaging shall hide no place") {
+  const auto sensor = kind().make({{"count", std::int64_t{1}}, {"averaging_after", 0.05}});
+  SyntheticScene world;
+  set_cells(world, 60, 20, 40);
+  dig(world, {{12, 10, 20, 0.3}, {45, 10, 10, 0.5}});
+  const auto set_gate = [&](float open) {
+    for (int k = 4; k < 16; ++k) {
+      for (int j = 0; j < 20; ++j) {
+        for (int i = 38; i < 52; ++i) {
+          world.open_fraction[static_cast<std::size_t>(i + 60 * (j + 20 * k))] = open;
+        }
+      }
+    }
+  };
+  set_gate(0.0F);
+  while (world.time < 0.02) step(*sensor, world);
+  set_gate(1.0F);
+  while (world.time < 0.2) step(*sensor, world);
+  CHECK(summary_of(*sensor)["place_1/depth"] == test::approx(0.5 * smoothed_share()).epsilon(1e-6));
+}
+
 TEST_CASE("no place shall lie in the stream, judged by its mean solids fraction") {
   SyntheticScene world;
   set_cells(world, 60, 3, 40);

@@ -84,6 +84,45 @@ class Plate final : public bodies::OnePart<Plate> {
   double half_length_;
 };
 
+/// A box turned by `angle` about an axis through its centre.
+class TurnedBox final : public bodies::OnePart<TurnedBox> {
+ public:
+  TurnedBox(sdk::Vec3 centre, sdk::Vec3 half, sdk::Vec3 about, double angle)
+      : centre_(centre), half_(half) {
+    const sdk::Vec3 e = about / norm(about);
+    for (int d = 0; d < 3; ++d) {
+      sdk::Vec3 v;
+      v[d] = 1.0;
+      axis_[d] = std::cos(angle) * v + std::sin(angle) * cross(e, v) +
+                 (1.0 - std::cos(angle)) * dot(e, v) * e;
+    }
+  }
+  [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 p) const override {
+    sdk::Vec3 out;
+    sdk::Vec3 largest_normal;
+    double largest = -1e9;
+    for (int d = 0; d < 3; ++d) {
+      const double q = dot(p - centre_, axis_[d]);
+      const sdk::Vec3 normal = q < 0 ? -axis_[d] : axis_[d];
+      const double over = std::abs(q) - half_[d];
+      if (over > 0.0) out += over * normal;
+      if (over > largest) largest = over, largest_normal = normal;
+    }
+    const double r = norm(out);
+    if (r > 0.0) return {r, out / r};
+    return {largest, largest_normal};
+  }
+  [[nodiscard]] bodies::Triangles triangles(sdk::Vec3, sdk::Vec3, double) const override {
+    return {};
+  }
+  [[nodiscard]] sdk::Vec3 lateral_axis() const override { return {0, 1, 0}; }
+
+ private:
+  sdk::Vec3 centre_;
+  sdk::Vec3 half_;
+  sdk::Vec3 axis_[3];
+};
+
 /// Everything between two parallel planes.
 class Slab final : public bodies::OnePart<Slab> {
  public:
