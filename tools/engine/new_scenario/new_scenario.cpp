@@ -87,6 +87,18 @@ std::string materials_of(double height, double speed) {
   return out.str();
 }
 
+/// `load` [m]: how high it lies on the slice.
+void check_slice(double width, double grain, double load) {
+  constexpr double k_highest_load = 0.5;  // m
+  require(grain <= 0.5 * width, "--grain " + base::length_text(grain) + " in a slice of --width " +
+                                    base::length_text(width) +
+                                    ": the slice has to be two grains wide; give a wider one");
+  require(load <= k_highest_load,
+          "--flow is that of the slice, " + base::length_text(width) +
+              " wide: the load would lie " + base::length_text(load, 3) +
+              " high on it; give the belt's flow times --width over the width of its load");
+}
+
 /// Sizes: speed, drop, flow, width, grain.
 std::string write_transfer(const std::string& name, const std::vector<double>& s) {
   const double speed = s[0];
@@ -97,14 +109,7 @@ std::string write_transfer(const std::string& name, const std::vector<double>& s
   const double margin = 0.1;
   // The feed stands clear of the load, which it gives the belt's speed: what slides first piles up.
   const double load = flow / (k_density * k_load_solids * speed * width);
-  constexpr double k_highest_load = 0.5;  // m
-  require(grain <= 0.5 * width, "--grain " + base::length_text(grain) + " in a slice of --width " +
-                                    base::length_text(width) +
-                                    ": the slice has to be two grains wide; give a wider one");
-  require(load <= k_highest_load,
-          "--flow is that of the slice, " + base::length_text(width) +
-              " wide: the load would lie " + base::length_text(load, 3) +
-              " high on it; give the belt's flow times --width over the width of its load");
+  check_slice(width, grain, load);
   const double gap = 4.0 * grain + 1.5 * load;
   const double fall = 0.5;  // [m/s] of the feed
   const double inset = 0.25 * grain;
