@@ -137,7 +137,7 @@ void read_setup(Reading& reading) {
   check_audit(reading);
   check_emitters(reading);
   check_periods(reading);
-  if (reading.setup.emitters.empty() && !reading.setup.fluid) {
+  if (reading.setup.emitters.empty() && !reading.setup.fluid && !reading.diagnostics.has_errors()) {
     reading.diagnostics.warning(reading.root.where,
                                 "nothing moves: no emitter takes part and fluid is none");
   }
