@@ -16,6 +16,9 @@ TRUTH = {"mu_s": 0.4, "mu_r": 0.15}
 # Target: sensor, figure, unit in SI.
 FIGURES = {"angle": ("slope", "mean_angle", 1.0), "mass": ("outlet", "mass", 1e-3)}
 SEEDS = range(1, 7)
+# Of the study itself: a region of 95 % misses one time in twenty, so one answer says little. Of five, two misses are met by chance in 2 %.
+STUDY_SEEDS = range(2, 6)
+MOST_MISSES = 1
 
 
 def plans():
@@ -49,6 +52,17 @@ def in_region(folder, truth):
         return float(group["minus_log_density"][nearest]) <= level
 
 
+def with_seed(args, seed):
+    """Folder of the study with another first seed, run unless args say otherwise."""
+    folder = args.runs / f"{STUDY.stem}_seed_{seed}"
+    if not args.no_run:
+        file = args.runs / f"{folder.name}.yaml"
+        text = STUDY.read_text().replace("\nbase: ", f"\nseed: {seed}\nbase: {STUDY.parent}/")
+        file.write_text(text)
+        study_runs.run(args, file, "-o", folder, "--resume" if folder.exists() else "--force")
+    return folder
+
+
 def write(args):
     file, truth = STUDY, TRUTH
     folder = args.runs / file.stem
@@ -72,9 +86,11 @@ def write(args):
         out.append(f"| {name} | {truth[name]:g} | {p['best']:.3g} | {p['mean']:.3g} ± {p['deviation']:.2g} | "
                    f"{low:.3g} to {high:.3g} | {'yes' if inside else 'NO'} | {'yes' if p['is_pinned'] else 'no'} |")
     inside = in_region(folder, truth)
-    holds = holds and inside and answer["runs"] <= 30
+    others = [in_region(with_seed(args, seed), truth) for seed in STUDY_SEEDS]
+    holds = holds and [inside, *others].count(False) <= MOST_MISSES and answer["runs"] <= 30
     out += ["", "| | |", "| --- | --- |",
             f"| truth within the {100 * answer['confidence']:g} % region (all parameters together) | **{'yes' if inside else 'NO'}** |",
+            f"| the same with the seeds {STUDY_SEEDS[0]} to {STUDY_SEEDS[-1]} | {others.count(True)} of {len(others)} |",
             f"| runs | **{answer['runs']}** (at most 30 wanted), {seconds:.0f} s of one core |",
             f"| targets met | {'yes' if answer['is_met'] else 'no'}, misfit {answer['misfit']:.2g} |", "",
             f"| target | wanted | {len(SEEDS)} runs at the truth | at the best place | scatter of single runs |", "| --- | --- | --- | --- | --- |"]
