@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/geometry/skew_stencils.hpp"
 
+#include "fluid/geometry/wrapped.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <Eigen/Cholesky>
@@ -47,8 +49,6 @@ bool is_singular(const Eigen::LDLT<Square>& fit) {
   const auto pivots = fit.vectorD();
   return !(pivots.minCoeff() > k_smallest_pivot * pivots.maxCoeff());
 }
-
-int wrapped(int n, int count) { return ((n % count) + count) % count; }
 
 }  // namespace
 

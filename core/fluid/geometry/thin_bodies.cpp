@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/geometry/thin_bodies.hpp"
 
+#include "fluid/geometry/wrapped.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,8 +11,6 @@ namespace dust::fluid {
 namespace {
 
 using sdk::Vec3;
-
-int wrapped(int i, int n) { return ((i % n) + n) % n; }
 
 std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 

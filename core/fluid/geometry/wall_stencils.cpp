@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/geometry/geometry_builder.hpp"
+#include "fluid/geometry/wrapped.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -217,8 +218,7 @@ bool GeometryBuilder::interpolation(int d, Vec3 p, GhostFace& ghost) const {
   // Beyond a periodic side the nodes are those at the other end.
   const auto index_of = [this](std::array<int, 3> c) {
     for (int dir = 0; dir < 3; ++dir) {
-      const int count = grid_.count[dir];
-      if (sides_.is_periodic[dir]) c[dir] = (c[dir] % count + count) % count;
+      if (sides_.is_periodic[dir]) c[dir] = fluid::wrapped(c[dir], grid_.count[dir]);
     }
     return grid_.index(c[0], c[1], c[2]);
   };

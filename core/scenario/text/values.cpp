@@ -390,8 +390,8 @@ std::string unit_in(const Node& node, double& largest) {
   return unit;
 }
 
-/// The unit that a bare number was hardly meant without; "" where SI is likely. Whole metres are
-/// typed by those who think in millimetres, more than a full turn by those who think in degrees.
+}  // namespace
+
 std::string likely_unit(sdk::Dimension dimension, double value) {
   constexpr double k_sure_length = 10.0;
   const double size = std::abs(value);
@@ -401,8 +401,6 @@ std::string likely_unit(sdk::Dimension dimension, double value) {
   if (dimension == sdk::dimension::angle && size > 2.0 * std::numbers::pi) return "deg";
   return "";
 }
-
-}  // namespace
 
 /// `max: [330, 11, 350]` is a domain of 330 m, `min: [-20, -20, 0]` beside `max: [20, 20, 60 mm]`
 /// reaches over 20 m: hardly meant.

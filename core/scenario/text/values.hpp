@@ -22,6 +22,10 @@ std::string range_text(const sdk::Parameter& parameter);
 /// "1e-6 to 1000 Pa s"; empty where all values are usual.
 std::string usual_text(const sdk::Parameter& parameter);
 
+/// The unit that a bare number was hardly meant without; "" where SI is likely. Whole metres are
+/// typed by those who think in millimetres, more than a full turn by those who think in degrees.
+std::string likely_unit(sdk::Dimension dimension, double value);
+
 /// The default as text in SI, "" for none.
 std::string default_text(const sdk::Parameter& parameter);
 

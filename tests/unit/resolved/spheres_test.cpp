@@ -73,7 +73,7 @@ TEST_CASE("resolved: a sphere of the fluid's density stays with a uniform stream
 }
 
 // The fluid meets the spin of the step before: a free sphere of 0.8 of the fluid's density spun up
-// from nothing at steps of 0.8 cell^2/viscosity and more.
+// by itself at long steps.
 TEST_CASE("resolved: the spin of a light sphere dies away, also with the longest step allowed") {
   auto box = cubic_array(24, 3.0);
   const double h = 3.0 / 24;

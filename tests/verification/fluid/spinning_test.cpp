@@ -311,8 +311,7 @@ TEST_CASE(
 }
 
 TEST_CASE("air beside a turning cylinder shall be mirrored with it") {
-  // Neighbours of a face were gathered further to one side than to the other: a difference of 2e-5
-  // of the speed here.
+  // Neighbours of a face were gathered further to one side than to the other.
   constexpr double k_speed = 0.8;
   const auto mirrored = [](double sign) {
     Vec3 centre = k_centre;

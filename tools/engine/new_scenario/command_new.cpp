@@ -6,8 +6,8 @@
 #include "scenario/reader.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
+#include "scenario/text/values.hpp"
 
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -23,14 +23,16 @@ double size_in_si(const Size& size, const std::string& text) {
   std::string error;
   const auto written = scenario::split_number(text, error);
   if (!written) throw base::UserError(place + error);
-  const auto value = scenario::to_si(*written, scenario::parse_unit(size.unit)->dimension, error);
+  const sdk::Dimension dimension = scenario::parse_unit(size.unit)->dimension;
+  const auto value = scenario::to_si(*written, dimension, error);
   if (!value) throw base::UserError(place + error);
   if (!(*value > 0.0)) throw base::UserError(place + "above 0 is expected, not " + text);
-  // Whole metres are typed by those who think in millimetres.
-  const bool is_length = scenario::parse_unit(size.unit)->dimension == sdk::dimension::length;
-  if (written->unit.empty() && is_length && *value >= 1.0 && *value == std::floor(*value)) {
-    throw base::UserError(place + text + " has no unit and would be " + text + " m: write " +
-                          base::shell_word(text + " mm") + " or " + base::shell_word(text + " m"));
+  const std::string likely = written->unit.empty() ? scenario::likely_unit(dimension, *value) : "";
+  if (!likely.empty()) {
+    const std::string as_read = text + " " + scenario::si_unit(dimension);
+    throw base::UserError(place + text + " has no unit and would be " + as_read + ": write " +
+                          base::shell_word(text + " " + likely) + " or " +
+                          base::shell_word(as_read));
   }
   return *value;
 }
