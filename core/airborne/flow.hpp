@@ -22,6 +22,8 @@ struct WallPiece {
   std::int32_t surface = 0;  ///< number of the side or body
   sdk::Vec3 area;            ///< [1/m] out of the gas, over the volume of the whole cell
   std::int32_t face = -1;    ///< of the grid, in a side, which gas may pass; -1: of a body
+  /// [1/m] In plan, of parts that look up and which parts that look down cancel in `area`.
+  double cancelled = 0.0;
 };
 
 /// How the surface of a piece of wall runs. What stands has no velocity.
@@ -36,8 +38,9 @@ struct SurfaceMotion {
 
 /// What dust is told of the gas in a fluid step. Shares are of whole cells and faces.
 struct Flow {
-  fluid::CellField volume_before;     ///< [-] filled by gas: open share times void fraction, at the
-  fluid::CellField volume_after;      ///< beginning and at the end; 0 in bodies
+  fluid::CellField volume_before;  ///< [-] filled by gas: open share times void fraction, at the
+  fluid::CellField volume_after;   ///< beginning and at the end; 0 in bodies
+  const fluid::CellField* void_fraction = nullptr;  ///< [-] at the end; null: there are no grains
   fluid::FaceField throughflow;       ///< [m/s] volume flow of the gas over the area of the face
   fluid::FaceField passage;           ///< [-] share of the face that gas fills; on sides that are
                                       ///< walls 0

@@ -17,6 +17,8 @@ using fluid::for_rows;
 
 /// Share of a face below which nothing passes.
 constexpr double k_closed = 1e-9;
+/// Solids fraction from which on the gas's changes of velocity count as the grains' doing.
+constexpr double k_crowded = 0.01;
 
 std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
@@ -28,11 +30,26 @@ DUST_KERNEL void velocity_row(int n, const double* throughflow, const double* pa
   }
 }
 
-DUST_KERNEL void mean_row(int n, double share, const double* velocity, double* past) {
+/// How clear of grains what passes is, of the fuller one of two cells; 0: nothing passes.
+DUST_KERNEL void clear_row(int n, const double* below, const double* above, const double* passage,
+                           double* clear) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
-    const double on = past[i] + share * (velocity[i] - past[i]);
-    past[i] = past[i] != 0.0 && velocity[i] != 0.0 ? on : velocity[i];
+    const double eps = below[i] < above[i] ? below[i] : above[i];
+    const double share = 1.0 - (1.0 - eps) / k_crowded;
+    clear[i] = passage[i] > k_closed && share > 0.0 ? share : 0.0;
+  }
+}
+
+DUST_KERNEL void mean_row(int n, double share, const double* velocity, const double* clear,
+                          double* past) {
+#pragma GCC ivdep
+  for (int i = 0; i < n; ++i) {
+    // Among grains there is no past to tell from.
+    const double towards = share + (1.0 - share) * (1.0 - clear[i]);
+    const double on = past[i] + towards * (velocity[i] - past[i]);
+    const double now = past[i] != 0.0 ? on : velocity[i];
+    past[i] = clear[i] > 0.0 ? now : 0.0;
   }
 }
 
@@ -43,20 +60,19 @@ struct Across {
   const double* velocity = nullptr;  ///< on this direction's faces
 };
 
-/// Slope of v at i from the neighbours that are open: gas that passes is not quite at rest.
-inline __attribute__((always_inline)) double slope(const double* v, int i, std::ptrdiff_t s,
-                                                   double inverse_h) {
-  const double below = v[i - s];
-  const double above = v[i + s];
-  const double low = below != 0.0 ? v[i] - below : 0.0;
-  const double high = above != 0.0 ? above - v[i] : 0.0;
-  const double share = below != 0.0 && above != 0.0 ? 0.5 : 1.0;
-  return share * inverse_h * (low + high);
+/// Slope of v at i from the neighbours, as far as each is clear.
+inline __attribute__((always_inline)) double slope(const double* v, const double* clear, int i,
+                                                   std::ptrdiff_t s, double inverse_h) {
+  const double below = clear[i - s];
+  const double above = clear[i + s];
+  const double both = below + above;
+  const double change = below * (v[i] - v[i - s]) + above * (v[i + s] - v[i]);
+  return inverse_h * change / (both > 0.0 ? both : 1.0);
 }
 
 DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, const Across& f,
-                                  double rate, const double* past, float* acceleration,
-                                  float* speed) {
+                                  double rate, const double* past, const double* clear,
+                                  float* acceleration, float* speed) {
   const double *v = own.velocity, *ve = e.velocity, *vf = f.velocity;
   const std::ptrdiff_t s = own.stride, se = e.stride, sf = f.stride;
 #pragma GCC ivdep
@@ -64,13 +80,12 @@ DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, con
     const double u = v[i];
     const double across_e = 0.25 * (ve[i] + ve[i - s] + ve[i + se] + ve[i + se - s]);
     const double across_f = 0.25 * (vf[i] + vf[i - s] + vf[i + sf] + vf[i + sf - s]);
-    const double carried = u * slope(v, i, s, own.inverse_h) +
-                           across_e * slope(v, i, se, e.inverse_h) +
-                           across_f * slope(v, i, sf, f.inverse_h);
-    // A face that a body has just set free has no past: nothing there has been sped up.
+    const double carried = u * slope(v, clear, i, s, own.inverse_h) +
+                           across_e * slope(v, clear, i, se, e.inverse_h) +
+                           across_f * slope(v, clear, i, sf, f.inverse_h);
+    // A face that a body or grains have just set free has no past: nothing there was sped up.
     const double gained = past[i] != 0.0 ? u - past[i] : 0.0;
-    const double all = gained * rate + carried;
-    acceleration[i] = static_cast<float>(u != 0.0 ? all : 0.0);
+    acceleration[i] = static_cast<float>(clear[i] * (gained * rate + carried));
     speed[i] = static_cast<float>(std::sqrt(u * u + across_e * across_e + across_f * across_f));
   }
 }
@@ -84,7 +99,7 @@ std::array<int, 3> faces(const fluid::Grid& grid, std::size_t d) {
 }  // namespace
 
 GasAcceleration::GasAcceleration(const fluid::Grid& grid, double memory)
-    : grid_(grid), velocity_(grid), past_(grid), memory_(memory) {
+    : grid_(grid), velocity_(grid), past_(grid), clear_(grid), memory_(memory) {
   for (auto* fields : {&acceleration_, &speed_}) {
     for (std::vector<float>& field : *fields) field.assign(grid.size, 0.0F);
   }
@@ -99,6 +114,39 @@ void GasAcceleration::find_velocity(const Flow& flow) {
                    &velocity_.component[d][o]);
     });
     wrap(velocity_.component[d], d);
+  }
+}
+
+void GasAcceleration::find_clear(const Flow& flow) {
+  for (std::size_t d = 0; d < 3; ++d) {
+    const auto n = faces(grid_, d);
+    const std::ptrdiff_t s = grid_.stride[d];
+    for_rows(n[0], n[1], n[2], [&](int j, int k) {
+      const std::ptrdiff_t o = grid_.index(0, j, k);
+      const double* passage = &flow.passage.component[d][at(o)];
+      double* clear = &clear_.component[d][at(o)];
+      if (flow.void_fraction == nullptr) {
+        for (int i = 0; i < n[0]; ++i) clear[i] = passage[i] > k_closed ? 1.0 : 0.0;
+        return;
+      }
+      const double* eps = flow.void_fraction->data();
+      const int place[3] = {0, j, k};
+      // Beyond a side there is the gas of the cell before it, or that of the other end.
+      const std::ptrdiff_t round = grid_.is_periodic[d] ? s * grid_.count[d] : s;
+      const auto row = [&](int first, int count, std::ptrdiff_t below, std::ptrdiff_t above) {
+        clear_row(count, eps + o + first + below, eps + o + first + above, passage + first,
+                  clear + first);
+      };
+      if (d == 0) {
+        row(0, 1, round - s, 0);
+        row(1, n[0] - 2, -s, 0);
+        row(n[0] - 1, 1, -s, -round);
+      } else {
+        const bool is_low = place[d] == 0, is_high = place[d] == grid_.count[d];
+        row(0, n[0], is_low ? round - s : -s, is_high ? -round : 0);
+      }
+    });
+    wrap(clear_.component[d], d);
   }
 }
 
@@ -134,7 +182,8 @@ void GasAcceleration::find_row(int dir, int j, int k, double rate) {
   float* acceleration = acceleration_[d].data() + o;
   const int n = faces(grid_, d)[0];
   acceleration_row(n, across(d), across((d + 1) % 3), across((d + 2) % 3), rate,
-                   past_.component[d].data() + o, acceleration, speed_[d].data() + o);
+                   past_.component[d].data() + o, clear_.component[d].data() + o, acceleration,
+                   speed_[d].data() + o);
   if (grid_.is_periodic[d]) return;
   const int place[3] = {0, j, k};
   if (d == 0) {
@@ -150,13 +199,15 @@ void GasAcceleration::go_towards_velocity(double share) {
     const auto n = faces(grid_, d);
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::size_t o = at(grid_.index(0, j, k));
-      mean_row(n[0], share, &velocity_.component[d][o], &past_.component[d][o]);
+      mean_row(n[0], share, &velocity_.component[d][o], &clear_.component[d][o],
+               &past_.component[d][o]);
     });
   }
 }
 
 void GasAcceleration::find(const Flow& flow, double step) {
   find_velocity(flow);
+  find_clear(flow);
   if (is_first_) go_towards_velocity(1.0);
   is_first_ = false;
   const double share = -std::expm1(-step / memory_);

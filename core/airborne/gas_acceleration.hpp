@@ -13,7 +13,8 @@ namespace dust::airborne {
 /// Acceleration of the gas as it goes along, Du/Dt = du/dt + (u grad) u, on faces, each along its
 /// own normal: what dust cannot follow (docs/theory/dust.md, section 1). Central differences,
 /// one-sided next to faces that are closed; second order where the flow is smooth. 0 on the sides
-/// of the domain and in closed faces.
+/// of the domain and in closed faces. Among grains, whose coming and going makes the velocity of a
+/// cell's gas swing, it fades out: to nothing at a solids fraction of 1 %.
 class GasAcceleration {
  public:
   /// `memory` [s]: the rate of change is that of the mean over so long a past, exponentially
@@ -33,6 +34,7 @@ class GasAcceleration {
 
  private:
   void find_velocity(const Flow& flow);
+  void find_clear(const Flow& flow);
   /// Gives a periodic component values beyond both ends.
   void wrap(std::vector<double>& values, std::size_t component) const;
   /// `rate` [1/s]: of what the mean is behind, how much it makes up for during the step.
@@ -42,6 +44,7 @@ class GasAcceleration {
   fluid::Grid grid_;
   fluid::FaceField velocity_;  ///< [m/s] of the gas between the grains; 0: nothing passes
   fluid::FaceField past_;      ///< [m/s] its mean over the past
+  fluid::FaceField clear_;     ///< [-] how clear of grains a face is; 0: nothing passes
   double memory_;
   std::array<std::vector<float>, 3> acceleration_;
   std::array<std::vector<float>, 3> speed_;

@@ -210,12 +210,14 @@ void Transport::find_drive(const Flow& flow, const DustClass& dust) {
   for (std::size_t n = 0; n < flow.walls.size(); ++n) {
     const WallPiece& piece = flow.walls[n];
     const double inflow = inflow_at(flow, piece);
-    wall_rate_[n] = std::max(0.0, dot(dust.drift, piece.area) - std::max(0.0, inflow));
+    const double on_edges = norm(dust.drift) * piece.cancelled;
+    wall_rate_[n] = std::max(0.0, dot(dust.drift, piece.area) - std::max(0.0, inflow)) + on_edges;
     const double area = norm(piece.area);
     if (flow.smooth_wall_viscosity > 0.0 && area > 0.0 && inflow == 0.0) {
       wall_rate_[n] =
           area * deposition_velocity(dust, dot(dust.drift, piece.area) / area,
-                                     flow.friction_velocity[n], flow.smooth_wall_viscosity);
+                                     flow.friction_velocity[n], flow.smooth_wall_viscosity) +
+          on_edges;
     }
     deposition_[at(piece.cell)] += wall_rate_[n];
   }

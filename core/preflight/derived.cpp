@@ -237,7 +237,9 @@ Derived derive(const Setup& setup, const registry::Registry& registry,
         count_grains(setup, models.bodies, setup.emitters[n], *models.emitters[n]));
   }
   derived.drain = drain_of_all(setup, models.bodies, derived.emissions);
-  const double driven = driven_speed(setup, SideModelSet(setup, registry).models());
+  const SideModelSet sides(setup, registry);
+  derived.side_flows = side_flows(setup, sides.models());
+  const double driven = driven_speed(setup, sides.models());
   if (!(setup.time.expected_speed > 0.0)) {
     derived.expected_speed = std::max(derived.expected_speed, driven);
   }

@@ -12,6 +12,7 @@
 #include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct Derived {
   SlopeDrain drain;                    ///< of the grains that are there at once
   int dust_classes = 0;                ///< that the fluid carries as concentrations
   double dust_begin = 0.0;             ///< [s] rough: when the first of it gets into the air
+  std::array<double, 6> side_flows{};  ///< see side_flows()
   double smallest_spacing = 0.0;       ///< [m] 0 without fluid
   double mean_spacing = 0.0;           ///< [m] edge of a cube of a cell's volume
   double diameter_over_spacing = 0.0;  ///< largest grain over smallest cell edge

@@ -308,6 +308,17 @@ double side_speed(const Setup& setup, const SideModels& sides, std::size_t side)
   return largest;
 }
 
+/// [m/s] Mean through the opening of a side, which may be smaller than a face of the grid.
+double opening_speed(const Setup& setup, const scenario::SideOpeningSpec& opening, double flow) {
+  double area = 1.0;
+  for (int d = 0; d < 3; ++d) {
+    if (d == opening.side / 2) continue;
+    area *= std::min(opening.max[d], setup.domain.max[d]) -
+            std::max(opening.min[d], setup.domain.min[d]);
+  }
+  return area > 0.0 ? std::abs(flow) / area : 0.0;
+}
+
 /// The side that a sensor of wall shear is given, as a number; -1 for others.
 int side_of(const scenario::SensorSpec& sensor, const registry::Registry& registry) {
   if (sensor.model.name != k_wall_shear) return -1;
@@ -362,7 +373,25 @@ double driven_speed(const Setup& setup, const SideModels& sides) {
   return largest;
 }
 
-void check_driven_speed(const Setup& setup, const SideModels& sides, Diagnostics& diagnostics) {
+std::array<double, 6> side_flows(const Setup& setup, const SideModels& sides) {
+  std::array<double, 6> flows{};
+  if (!setup.fluid) return flows;
+  for (std::size_t n = 0; n < 6; ++n) {
+    if (sides[n] == nullptr || is_too_large(setup, n)) continue;
+    if (sides[n]->rules().normal_velocity != SideRule::fixed) continue;
+    Faces faces(setup, n);
+    for (int step = 0; step <= k_times; ++step) {
+      faces.ask(*sides[n], setup.time.end * step / k_times);
+      const double flow = faces.inflow();
+      if (std::abs(flow) > std::abs(flows[n])) flows[n] = flow;
+    }
+  }
+  return flows;
+}
+
+void check_driven_speed(const Setup& setup, const SideModels& sides,
+                        const std::vector<scenario::SideOpeningSpec>& openings,
+                        Diagnostics& diagnostics) {
   if (!setup.fluid) return;
   const auto warn = [&](const Mark& where, const std::string& what, double speed) {
     if (!(speed > k_compressible)) return;
@@ -379,10 +408,15 @@ void check_driven_speed(const Setup& setup, const SideModels& sides, Diagnostics
              " through at most " + base::area_text(area_of(setup, *body.suction)) + " are",
          suction_speed(setup, *body.suction));
   }
+  const std::array<double, 6> flows = side_flows(setup, sides);
   for (std::size_t n = 0; n < 6; ++n) {
     const SideSpec& side = setup.domain.sides[n];
-    warn(side.air ? side.air->where : side.where, path_of(n) + ".air: drives the fluid at",
-         side_speed(setup, sides, n));
+    double speed = side_speed(setup, sides, n);
+    for (const scenario::SideOpeningSpec& opening : openings) {
+      if (static_cast<std::size_t>(opening.side) != n) continue;
+      speed = std::max(speed, opening_speed(setup, opening, flows[n]));
+    }
+    warn(side.air ? side.air->where : side.where, path_of(n) + ".air: drives the fluid at", speed);
   }
 }
 

@@ -4,10 +4,12 @@
 #include "dust/sdk/boundary_condition.hpp"
 #include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
+#include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
 #include <array>
 #include <memory>
+#include <vector>
 
 namespace dust::preflight {
 
@@ -36,7 +38,12 @@ void check_flow(const scenario::Setup& setup, const SideModels& sides,
 /// Warns of openings and sides that drive the fluid faster than what its equations hold for, a
 /// third of the speed of sound in air: mostly a wrong unit.
 void check_driven_speed(const scenario::Setup& setup, const SideModels& sides,
+                        const std::vector<scenario::SideOpeningSpec>& openings,
                         scenario::Diagnostics& diagnostics);
+
+/// [m3/s] Into the domain, of each side that drives the fluid at a given rate, where it is largest;
+/// 0 of the others and of those that a check has no memory for.
+std::array<double, 6> side_flows(const scenario::Setup& setup, const SideModels& sides);
 
 /// Tells sensors of wall shear on sides that have none, or whose viscosity they do not know.
 void check_wall_shear(const scenario::Setup& setup, const SideModels& sides,

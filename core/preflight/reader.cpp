@@ -13,6 +13,7 @@
 #include "preflight/places/resolved_check.hpp"
 #include "preflight/places/sensor_look.hpp"
 #include "preflight/places/sensor_places.hpp"
+#include "preflight/places/sensor_surfaces.hpp"
 #include "preflight/places/suction_cover.hpp"
 #include "preflight/stiffness/cohesion_check.hpp"
 #include "preflight/stiffness/softness.hpp"
@@ -25,11 +26,14 @@ namespace {
 
 using Result = std::optional<scenario::ReadResult>;
 
-void check_sides(const scenario::Setup& setup, const registry::Registry& registry,
+void check_sides(const scenario::ReadResult& read, const registry::Registry& registry,
                  scenario::Diagnostics& diagnostics) {
+  const scenario::Setup& setup = read.setup;
   const SideModelSet sides(setup, registry);
   check_flow(setup, sides.models(), diagnostics);
-  if (!diagnostics.has_errors()) check_driven_speed(setup, sides.models(), diagnostics);
+  if (!diagnostics.has_errors()) {
+    check_driven_speed(setup, sides.models(), read.dust.openings, diagnostics);
+  }
   check_wall_shear(setup, sides.models(), registry, diagnostics);
 }
 
@@ -53,11 +57,13 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_resolved_at_thin_bodies(read.setup, models, diagnostics);
   check_bodies_at_periodic_sides(read.setup, models, diagnostics);
   check_belts(read.setup, models, diagnostics);
+  check_feeds_on_belts(read.setup, models, first, diagnostics);
   check_reach(read.setup, models, diagnostics);
   check_cohesion(read.setup, models, registry, diagnostics);
   check_softness(read.setup, models, registry, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);
   check_sensor_places(read.setup, models.bodies, registry, diagnostics);
+  check_sensor_surfaces(read.setup, models.bodies, registry, diagnostics);
   check_first_looks(read.setup, models.class_diameters, registry, diagnostics);
 }
 
@@ -65,7 +71,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
 Result checked(Result read, const registry::Registry& registry,
                scenario::Diagnostics& diagnostics) {
   if (!read) return read;
-  check_sides(read->setup, registry, diagnostics);
+  check_sides(*read, registry, diagnostics);
   check_fixed_step(read->setup, registry, diagnostics);
   if (!diagnostics.has_errors()) check_places(*read, registry, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;

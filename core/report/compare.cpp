@@ -2,6 +2,7 @@
 #include "report/compare.hpp"
 
 #include "base/text.hpp"
+#include "dust/sdk/vec3.hpp"
 #include "report/highlights.hpp"
 
 #include <yaml-cpp/yaml.h>
@@ -23,6 +24,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+constexpr double k_nothing = 1e-30;  ///< in any SI unit
 
 std::string words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -153,24 +155,59 @@ std::vector<QuantityPair> paired(const std::vector<Figure>& first,
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const Figure& f : first) {
     places[{f.sensor, f.name, f.unit}] = pairs.size();
-    pairs.push_back({f.sensor, f.name, f.unit, f.value, f.uncertainty, k_none, -1.0});
+    pairs.push_back(
+        {f.sensor, f.name, f.unit, f.value, f.uncertainty, k_none, -1.0, f.no_error, ""});
   }
   for (const Figure& f : second) {
     const auto found = places.find({f.sensor, f.name, f.unit});
     if (found == places.end()) {
-      pairs.push_back({f.sensor, f.name, f.unit, k_none, -1.0, f.value, f.uncertainty});
+      pairs.push_back(
+          {f.sensor, f.name, f.unit, k_none, -1.0, f.value, f.uncertainty, "", f.no_error});
     } else {
       pairs[found->second].second = f.value;
       pairs[found->second].second_error = f.uncertainty;
+      pairs[found->second].second_reason = f.no_error;
     }
   }
   return pairs;
 }
 
+sdk::Vec3 point_of(const LowPlace& place) {
+  return {place.x.value, place.y.name.empty() ? 0.0 : place.y.value, place.z.value};
+}
+
+/// Gives places of low pressure the names of those of another run that they are nearest to: a rank
+/// by depth may change from run to run where the places do not. What is left over is named last.
+void name_as(const std::vector<LowPlace>& others, std::vector<LowPlace>& places) {
+  std::vector<const LowPlace*> free;
+  for (const LowPlace& other : others) free.push_back(&other);
+  std::vector<LowPlace*> unnamed;
+  for (LowPlace& place : places) unnamed.push_back(&place);
+  while (!free.empty() && !unnamed.empty()) {
+    std::pair<std::size_t, std::size_t> best;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t a = 0; a < free.size(); ++a) {
+      for (std::size_t b = 0; b < unnamed.size(); ++b) {
+        const double distance = norm(point_of(*free[a]) - point_of(*unnamed[b]));
+        if (!(distance < nearest)) continue;
+        nearest = distance;
+        best = {a, b};
+      }
+    }
+    if (!std::isfinite(nearest)) break;
+    unnamed[best.second]->name = free[best.first]->name;
+    free.erase(free.begin() + static_cast<std::ptrdiff_t>(best.first));
+    unnamed.erase(unnamed.begin() + static_cast<std::ptrdiff_t>(best.second));
+  }
+  for (std::size_t n = 0; n < unnamed.size(); ++n) {
+    unnamed[n]->name = std::to_string(others.size() + n + 1);
+  }
+}
+
 /// The figures of the first screen under names that compare between runs.
-std::vector<Figure> reported_first(const RunText& run, bool is_per_load) {
+std::vector<Figure> reported_first(const RunText& run, const Highlights& highlights,
+                                   bool is_per_load) {
   std::vector<Figure> list;
-  const Highlights highlights = highlights_of(run);
   const auto add = [&](std::string group, std::string name, const Figure& figure) {
     Figure reported = figure;
     reported.sensor = std::move(group);
@@ -219,11 +256,14 @@ std::vector<Figure> reported_first(const RunText& run, bool is_per_load) {
 }
 
 /// "0.0292 +- 0.0106", as many digits as the error allows.
-std::string plain(double value, double error) {
-  if (!std::isfinite(value)) return "-";
-  if (!(error > 0.0) || !std::isfinite(error)) {
+std::string plain(double value, double error, const std::string& reason) {
+  const std::string why = reason.empty() ? "" : " (" + reason + ")";
+  if (!std::isfinite(value)) return "-" + why;
+  // What is far less than an atom is rounding's.
+  if (std::abs(value) < k_nothing) value = 0.0;
+  if (!(error > k_nothing) || !std::isfinite(error)) {
     // Counts stay whole.
-    return base::digits_text(value, value == std::round(value) ? 12 : 5);
+    return base::digits_text(value, value == std::round(value) ? 12 : 5) + why;
   }
   if (std::max(std::abs(value), error) < 1e-4) {
     return base::digits_text(value, 3) + " +- " + base::digits_text(error, 2);
@@ -286,7 +326,11 @@ Comparison compare_runs(const std::filesystem::path& first, const std::filesyste
   }
   c.scenario = scenario_differences(c.first.scenario, c.second.scenario);
   const bool is_per_load = are_per_load(c.first, c.second);
-  c.headline = paired(reported_first(c.first, is_per_load), reported_first(c.second, is_per_load));
+  const Highlights highlights = highlights_of(c.first);
+  Highlights others = highlights_of(c.second);
+  name_as(highlights.places, others.places);
+  c.headline = paired(reported_first(c.first, highlights, is_per_load),
+                      reported_first(c.second, others, is_per_load));
   c.quantities = paired(all_figures(c.first), all_figures(c.second));
   const std::string state = text_at(c.first.summary, "state_sha256");
   const bool is_something =
@@ -304,16 +348,16 @@ std::string comparison_text(const Comparison& c) {
   for (const QuantityPair& pair : c.headline) {
     char difference[32] = "-", sigmas[32] = "-";
     if (std::isfinite(pair.difference())) {
-      const bool is_count = pair.difference() == std::round(pair.difference());
-      std::snprintf(difference, sizeof difference, is_count ? "%+.12g" : "%+.4g",
-                    pair.difference());
+      const double off = std::abs(pair.difference()) < k_nothing ? 0.0 : pair.difference();
+      std::snprintf(difference, sizeof difference, off == std::round(off) ? "%+.12g" : "%+.4g",
+                    off);
     }
     if (std::isfinite(pair.in_errors())) {
       std::snprintf(sigmas, sizeof sigmas, "%+.1f", pair.in_errors());
     }
     rows.push_back({pair.group + ": " + pair.name, "[" + pair.unit + "]",
-                    plain(pair.first, pair.first_error), plain(pair.second, pair.second_error),
-                    difference, sigmas});
+                    plain(pair.first, pair.first_error, pair.first_reason),
+                    plain(pair.second, pair.second_error, pair.second_reason), difference, sigmas});
   }
   std::vector<std::size_t> widths(rows[0].size(), 0);
   for (const auto& row : rows) {

@@ -22,6 +22,7 @@ struct QuantityPair {
   std::string unit;
   double first = 0.0, first_error = -1.0;  ///< errors: one standard error, negative: none given
   double second = 0.0, second_error = -1.0;
+  std::string first_reason, second_reason;  ///< why there is no error: "not steady"; "" = not said
 
   [[nodiscard]] double difference() const { return second - first; }
   /// The difference in its own standard errors (independent runs: errors add in squares); NaN where

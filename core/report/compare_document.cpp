@@ -165,8 +165,10 @@ json pairs_json(const std::vector<QuantityPair>& pairs) {
                     {"unit", pair.unit},
                     {"first", finite(pair.first)},
                     {"first_error", pair.first_error > 0.0 ? json(pair.first_error) : json()},
+                    {"first_reason", pair.first_reason},
                     {"second", finite(pair.second)},
                     {"second_error", pair.second_error > 0.0 ? json(pair.second_error) : json()},
+                    {"second_reason", pair.second_reason},
                     {"difference", finite(pair.difference())},
                     {"in_errors", finite(pair.in_errors())}});
   }

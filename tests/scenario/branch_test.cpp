@@ -314,6 +314,20 @@ TEST_CASE("sensors shall begin anew where anything but sensors and the end is se
     INFO(branch.err);
     REQUIRE(branch.status == 0);
     fs::remove_all(folder / "branch");
+    // The check says beforehand what the run will say.
+    const auto check = engine({"check", k_scenario, "--set", "time.end=7 ms", "--set",
+                               "start_from=" + (folder / "first").string(), "--set", setting});
+    const auto said = [](const std::string& err) {
+      std::string lines;
+      std::istringstream stream(err);
+      for (std::string line; std::getline(stream, line);) {
+        if (line.find("start_from: ") != std::string::npos) {
+          lines += line.substr(line.find("start_from: ")) + "\n";
+        }
+      }
+      return lines;
+    };
+    CHECK(said(check.err) == said(branch.err));
     const std::string begin =
         "these sensors begin anew, for something is set otherwise than in "
         "that run: ";

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ namespace {
 
 const std::string k_sides = DUST_SOURCE "/tests/scenario/dust_through_sides.yaml";
 const std::string k_sheet = DUST_SOURCE "/tests/scenario/dust_at_sheet.yaml";
+const std::string k_box = DUST_SOURCE "/tests/scenario/dust_on_box.yaml";
 
 /// What became of a share of the dust that was released.
 double share(const json& dust, const char* kind, const char* name) {
@@ -69,6 +71,27 @@ TEST_CASE(
   CHECK(drawn("turned", "flow: -0.1 l/s, times: [0, 1 s], factors: [-1, -1]", "27.1") == above);
   // Below there is none.
   CHECK(drawn("below", "flow: 0.1 l/s", "26.1") == 0.0);
+}
+
+TEST_CASE("a turned box shall catch what sinks onto its plan, edges and all") {
+  const TemporaryFolder folder;
+  for (const double angle : {0.0, 15.0, 30.0, 45.0, 60.0}) {
+    for (const bool is_fine : {false, true}) {
+      const json summary =
+          run_summary(k_box, folder / "out",
+                      {"--force", "--set", "frames.turned.angle=" + std::to_string(angle) + " deg",
+                       "--set", is_fine ? "fluid.cells=[24, 16, 20]" : "fluid.cells=[12, 8, 10]"});
+      const json& dust = summary["dust_field"]["classes"]["50_um"];
+      const double turn = angle * std::numbers::pi / 180.0;
+      const double plan = 40.0 * std::cos(turn) + 32.0 * std::sin(turn);  // [mm] along x
+      const double caught = share(dust, "deposited_kg", "box") * 120.0 * 80.0 / 60.0;
+      CAPTURE(angle);
+      CAPTURE(caught);
+      // Behind its edges a cell's dust is in part in their shelter.
+      CHECK(std::abs(caught - plan) < 0.25 * (is_fine ? 5.0 : 10.0));
+      CHECK(std::abs(dust["balance_error"].get<double>()) < 1e-12);
+    }
+  }
 }
 
 TEST_CASE("dust that comes off a grain on a sheet shall be in the air of its own side") {

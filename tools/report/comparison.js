@@ -4,13 +4,13 @@
   const {el, p, dash} = Dust;
   const [first, second] = Dust.data.names;
   const columns = [{title: 'Quantity'}, {title: first, number: true}, {title: second, number: true}, {title: 'Difference', number: true}, {title: 'In standard errors', number: true}];
-  const value = (v, error, unit) => (v === null ? dash : Dust.quantity(v, error, unit));
+  const value = (v, error, unit, reason) => (v === null ? dash : Dust.quantity(v, error, unit)) + (reason ? ` (${reason})` : '');
   const row = (pair) => {
     const scale = pair.first !== null && pair.second !== null && pair.first !== 0 ? 100 * pair.difference / Math.abs(pair.first) : null;
     const difference = pair.difference === null ? dash : pair.difference === 0 ? 'none'
       : Dust.quantity(pair.difference, -1, pair.unit) + (scale !== null ? ` (${Dust.number(scale, 2)}\u202f%)` : '');
     const sigmas = pair.in_errors === null ? dash : Math.abs(pair.in_errors) > 3 ? Dust.strong(Dust.number(pair.in_errors, 2)) : Dust.number(pair.in_errors, 2);
-    return [Dust.words(pair.name), value(pair.first, pair.first_error, pair.unit), value(pair.second, pair.second_error, pair.unit), difference, sigmas];
+    return [Dust.words(pair.name), value(pair.first, pair.first_error, pair.unit, pair.first_reason), value(pair.second, pair.second_error, pair.unit, pair.second_reason), difference, sigmas];
   };
   const groups_of = (pairs) => {
     const groups = new Map();

@@ -14,6 +14,13 @@ namespace {
 
 using sdk::Vec3;
 
+/// Diameters from which a grain that comes in is right above a belt.
+constexpr double k_right_above = 20.0;
+/// [-] Cosine of what comes in against a belt's way.
+constexpr double k_against = 0.5;
+/// [-] Of a velocity: a smaller level part is none.
+constexpr double k_level = 1e-6;
+
 /// A parameter of a body's shape by its name; null without one.
 const Vec3* vector_of(const scenario::ModelChoice& shape, std::string_view name) {
   for (const bodies::ShapeKind& kind : bodies::shape_catalogue()) {
@@ -65,6 +72,39 @@ void check_belts(const scenario::Setup& setup, const ParticleModels& models,
                             base::digits_text(-speed, 3) +
                             " m/s away from its head pulley; give a speed of the other sign, or "
                             "head and tail in each other's place, unless it shall run backwards");
+  }
+}
+
+void check_feeds_on_belts(const scenario::Setup& setup, const ParticleModels& models,
+                          std::span<const std::vector<sdk::InsertionRequest>> first,
+                          scenario::Diagnostics& diagnostics) {
+  if (!(norm(setup.gravity) > 0.0)) return;
+  // What falls onto a slope goes against its way in part: the level parts count.
+  const Vec3 down = setup.gravity / norm(setup.gravity);
+  const auto level = [&](Vec3 v) { return v - dot(v, down) * down; };
+  for (std::size_t e = 0; e < setup.emitters.size(); ++e) {
+    if (first[e].empty() || !models.emitters[e]->insertion_rule().waits) continue;
+    const sdk::InsertionRequest& grain = first[e].front();
+    for (std::size_t n = 0; n < setup.bodies.size(); ++n) {
+      const auto& motions = setup.bodies[n].motions;
+      const bodies::Body& body = models.bodies[n];
+      if (motions.size() != 1 || motions.front().name != "belt" || body.displaces()) continue;
+      const bodies::SurfacePoint below = body.nearest(grain.position);
+      if (!(below.distance < k_right_above * grain.diameter)) continue;
+      const Vec3 foot = grain.position - below.distance * below.normal;
+      const Vec3 belt = level(body.surface_velocity(foot, below.normal, setup.time.end));
+      const Vec3 along = level(grain.velocity);
+      const bool is_level = norm(along) > k_level * norm(grain.velocity);
+      if (!is_level || !(dot(along, belt) < -k_against * norm(along) * norm(belt))) continue;
+      const scenario::EmitterSpec& spec = setup.emitters[e];
+      diagnostics.warning(spec.model.where,
+                          spec.model.path + ": its grains come in at " +
+                              base::digits_text(norm(along), 3) + " m/s against the way of '" +
+                              body.name + "' below them, which runs at " +
+                              base::digits_text(norm(belt), 3) +
+                              " m/s; turn the velocity of the one or the other round, or put head "
+                              "and tail of the belt in each other's place");
+    }
   }
 }
 

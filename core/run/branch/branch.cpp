@@ -102,6 +102,10 @@ void Branch::check(Models& models, particles::Dem& particles) {
   check_emitters(models);
   transfer_bodies(models);
   report_obstacles(particles.obstacles_to(their_particles(), origin().time()));
+  is_same_world_ = is_same_world_ && models.class_diameters == origin().class_diameters();
+  report_what_air_drops(both_, is_same_world_, [this](const std::string& text) { warn(text); });
+  report_grains_anew();
+  report_sensors_anew(models);
 }
 
 void Branch::give_to(Simulation& simulation) {
@@ -125,13 +129,12 @@ void Branch::give_to(Simulation& simulation) {
 }
 
 void Branch::transfer(const Simulation::Owners& to) {
-  is_same_world_ = is_same_world_ && to.models.class_diameters == origin().class_diameters();
   const double steps = origin().time() / now_.setup.time.fluid_step;
   to.clock.start_at(std::llround(steps));
   transfer_particles(to);
   transfer_insertion(to);
   const Warn warn_of = [this](const std::string& text) { warn(text); };
-  if (to.fluid != nullptr) transfer_fluid(both_, to, is_same_world_, warn_of);
+  if (to.fluid != nullptr) transfer_fluid(both_, to, is_same_world_);
   if (to.dust != nullptr) is_field_new_ = !transfer_dust(both_, to, warn_of);
   if (to.liberation != nullptr) transfer_liberation(to);
   transfer_sensors(to.models);
@@ -143,16 +146,20 @@ void Branch::transfer(const Simulation::Owners& to) {
 }
 
 void Branch::transfer_sensors(Models& models) {
-  std::vector<std::string> anew;
   for (std::size_t n = 0; n < models.sensors.size(); ++n) {
     const std::string& name = now_.setup.sensors[n].name;
+    if (!both_.keeps_statistics(name, models.class_diameters)) continue;
     sdk::Sensor& sensor = *models.sensors[n];
-    if (both_.keeps_statistics(name, models.class_diameters)) {
-      origin().state().read({{"sensor." + name, [&](sdk::ArchiveReader& a) { sensor.load(a); }}});
-      sensors_going_on_.push_back(name);
-    } else if (base::find_named(origin().scenario().setup.sensors, name) != nullptr) {
-      anew.push_back(name);
-    }
+    origin().state().read({{"sensor." + name, [&](sdk::ArchiveReader& a) { sensor.load(a); }}});
+    sensors_going_on_.push_back(name);
+  }
+}
+
+void Branch::report_sensors_anew(const Models& models) {
+  std::vector<std::string> anew;
+  for (const scenario::SensorSpec& sensor : now_.setup.sensors) {
+    if (base::find_named(origin().scenario().setup.sensors, sensor.name) == nullptr) continue;
+    if (!both_.keeps_statistics(sensor.name, models.class_diameters)) anew.push_back(sensor.name);
   }
   if (anew.empty()) return;
   warn("these sensors begin anew, for something is set otherwise than in that run: " +

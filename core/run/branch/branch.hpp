@@ -43,8 +43,8 @@ class Branch {
   [[nodiscard]] const CountsBefore& before() const { return before_; }
   /// Sizes of the particles that come along.
   void add_diameters(std::vector<double>& class_diameters) const;
-  /// Takes away the bodies that the other run had taken away, then looks for what is in the way of
-  /// its particles.
+  /// Takes away the bodies that the other run had taken away, looks for what is in the way of its
+  /// particles, and tells what will begin anew.
   void check(Models& models, particles::Dem& particles);
   /// Gives the state to a simulation that has not started. Throws base::UserError with what is in
   /// the way, before anything is given.
@@ -80,6 +80,10 @@ class Branch {
   void transfer_insertion(const Simulation::Owners& to);
   void transfer_liberation(const Simulation::Owners& to);
   void transfer_sensors(Models& models);
+  void report_sensors_anew(const Models& models);
+  void report_grains_anew();
+  [[nodiscard]] bool keeps_emitter(const scenario::EmitterSpec& emitter) const;
+  [[nodiscard]] bool keeps_dust_on_grains() const;
 
   Comparison both_;
   const scenario::ReadResult& now_;

@@ -208,35 +208,48 @@ void Branch::transfer_insertion(const Simulation::Owners& to) {
   }
   for (std::size_t n = 0; n < now_.setup.emitters.size(); ++n) {
     const std::string& name = now_.setup.emitters[n].name;
-    const auto* before = base::find_named(origin().scenario().setup.emitters, name);
-    const scenario::ModelChoice& model = now_.setup.emitters[n].model;
-    if (before != nullptr && both_.same("emitters." + name) && both_.same("frames") &&
-        both_.same("seed") && both_.has_same_densities(now_.setup.emitters[n], *before) &&
-        !both_.is_changed(model.kind, model.name)) {
+    if (keeps_emitter(now_.setup.emitters[n])) {
       origin().state().read(
           {{"emitter." + name, [&](sdk::ArchiveReader& a) { to.models.emitters[n]->load(a); }}});
       continue;
     }
     to.insertion.pass_time(n, origin().time());
-    if (before == nullptr) {
+    if (base::find_named(origin().scenario().setup.emitters, name) == nullptr) {
       before_.new_emitters.push_back(name);
-      continue;
+    } else {
+      before_.changed_emitters.push_back({.name = name});
     }
-    before_.changed_emitters.push_back({.name = name});
-    warn("emitters." + name +
+  }
+}
+
+bool Branch::keeps_emitter(const scenario::EmitterSpec& emitter) const {
+  const auto* before = base::find_named(origin().scenario().setup.emitters, emitter.name);
+  return before != nullptr && both_.same("emitters." + emitter.name) && both_.same("frames") &&
+         both_.same("seed") && both_.has_same_densities(emitter, *before) &&
+         !both_.is_changed(emitter.model.kind, emitter.model.name);
+}
+
+bool Branch::keeps_dust_on_grains() const {
+  return origin().state().has("liberation", "set_free") && both_.keeps_loads();
+}
+
+void Branch::report_grains_anew() {
+  for (const scenario::EmitterSpec& emitter : now_.setup.emitters) {
+    if (base::find_named(origin().scenario().setup.emitters, emitter.name) == nullptr) continue;
+    if (keeps_emitter(emitter)) continue;
+    warn("emitters." + emitter.name +
          " is set otherwise, or its grains are: it goes on as if it had been so from the start");
   }
+  if (!now_.dust.field || !now_.dust.liberation || keeps_dust_on_grains()) return;
+  warn(
+      "grains carried no dust, or dust of other classes, or their materials have another "
+      "dust_load: they carry what materials say");
 }
 
 /// What came off so far, by the names of its causes.
 void Branch::transfer_liberation(const Simulation::Owners& to) {
-  if (!origin().state().has("liberation", "set_free") || !both_.keeps_loads()) {
-    warn(
-        "grains carried no dust, or dust of other classes, or their materials have another "
-        "dust_load: they carry what materials say");
-    are_loads_new_ = true;
-    return;
-  }
+  are_loads_new_ = !keeps_dust_on_grains();
+  if (are_loads_new_) return;
   const std::vector<std::string> walls = their_particles().wall_names();
   origin().state().read({{"liberation", [&](sdk::ArchiveReader& a) {
                             to.liberation->transfer_from(a, walls, both_.is_same_grid());

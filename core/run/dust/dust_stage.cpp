@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/dust/dust_stage.hpp"
 
-#include "bodies/survey/surface_in_box.hpp"
 #include "dust/sdk/sampling.hpp"
 #include "fluid/parallel.hpp"
 #include "preflight/flow_check.hpp"
@@ -16,25 +15,8 @@ namespace {
 using fluid::for_rows;
 using fluid::Grid;
 
-/// The surface that a thin body which keeps two cells apart turns to the one of them, seen from the
-/// middle of that.
-fluid::BodyField::Hit hit_between(const fluid::BodyField& bodies, sdk::Vec3 centre,
-                                  sdk::Vec3 opposite) {
-  const auto from = bodies.outside(centre);
-  const auto to = bodies.outside(opposite);
-  const auto way = from && to ? bodies.passes_through(*from, *to) : std::nullopt;
-  if (!way) return bodies.nearest(0.5 * (centre + opposite));
-  const sdk::Vec3 point = *from + (*way / norm(*to - *from)) * (*to - *from);
-  fluid::BodyField::Hit hit = bodies.nearest(point);
-  hit.distance = dot(centre - point, hit.normal);
-  return hit;
-}
-
 /// Part of a face that an opening may miss or reach beyond by rounding.
 constexpr double k_rounding = 1e-9;
-/// Of half the diagonal of a face: a surface that is nearer to it meets it.
-constexpr double k_finest_part = 0.03;
-
 std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
@@ -52,17 +34,16 @@ DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec
       fluid_(fluid),
       openings_(std::move(openings)),
       flow_(fluid.grid()),
-      passable_area_(fluid.grid()),
+      walls_(setup, models, fluid, spec.resuspension || spec.has_smooth_walls),
       field_(fluid.grid(), spec, {setup.fluid->density, setup.fluid->viscosity}, setup.gravity,
              {openings_.size(), 6 + setup.bodies.size(), has_running_surfaces(setup)}),
       weight_(fluid.grid(), setup.gravity, spec.density, setup.fluid->density),
       table_(fluid.grid(), spec.diameters, spec.density) {
   for (const double d : spec.diameters) names_.push_back(sdk::name_of(d * 1e6) + "_um");
   if (spec.scavenging) scavenging_.emplace(setup, fluid.grid().size);
-  if (spec.resuspension || spec.has_smooth_walls) {
-    wall_shear_.emplace(fluid.grid(), setup.fluid->viscosity / setup.fluid->density);
+  if (spec.has_smooth_walls) {
+    flow_.smooth_wall_viscosity = setup.fluid->viscosity / setup.fluid->density;
   }
-  if (spec.has_smooth_walls) flow_.smooth_wall_viscosity = wall_shear_->viscosity();
   mark_hoods();
 }
 
@@ -108,138 +89,6 @@ std::vector<std::string> DustStage::surface_names() const {
   return names;
 }
 
-void DustStage::add_sides(const std::array<int, 3>& cell) {
-  const Grid& grid = fluid_.grid();
-  const std::ptrdiff_t o = grid.index(cell[0], cell[1], cell[2]);
-  for (std::size_t side = 0; side < 6; ++side) {
-    const std::size_t d = side / 2;
-    const bool is_high = side % 2 != 0;
-    if (grid.is_periodic[d] || cell[d] != (is_high ? grid.count[d] - 1 : 0)) continue;
-    if (setup_.domain.sides[side].grains != scenario::GrainSide::wall) continue;
-    const int axis = static_cast<int>(d);
-    const std::ptrdiff_t face = is_high ? o + grid.stride[d] : o;
-    const double open = passable_area_.component[d][at(face)];
-    sdk::Vec3 normal;
-    normal[axis] = (is_high ? open : -open) / grid.spacing[axis];
-    pieces_.push_back({static_cast<std::int32_t>(o), static_cast<std::int32_t>(side), normal,
-                       static_cast<std::int32_t>(face)});
-    if (wall_shear_) wall_shear_->add_side(cell, axis, is_high ? -1.0 : 1.0);
-  }
-}
-
-void DustStage::add_body(const std::array<int, 3>& cell, const fluid::BodyField::Hit& hit,
-                         sdk::Vec3 area) {
-  const Grid& grid = fluid_.grid();
-  if (!(norm(area) * grid.spacing.x > 1e-9) || hit.body < 0) return;
-  const sdk::Vec3 centre = grid.centre(cell[0], cell[1], cell[2]);
-  pieces_.push_back(
-      {static_cast<std::int32_t>(grid.index(cell[0], cell[1], cell[2])), 6 + hit.body, area});
-  if (!models_.bodies[static_cast<std::size_t>(hit.body)].motions.empty()) {
-    running_.push_back(
-        {pieces_.size() - 1, cell, hit.body, hit.normal, centre - hit.distance * hit.normal});
-  }
-  if (wall_shear_) wall_shear_->add_body(centre, hit);
-}
-
-/// As the open areas of the cell's faces leave them over: of the body that is nearest. What a thin
-/// body takes of these faces is its own.
-void DustStage::add_bodies(const std::array<int, 3>& cell, const fluid::BodyField& bodies) {
-  const Grid& grid = fluid_.grid();
-  const fluid::FaceField& open = fluid_.solver().open_area();
-  const std::ptrdiff_t o = grid.index(cell[0], cell[1], cell[2]);
-  const sdk::Vec3 centre = grid.centre(cell[0], cell[1], cell[2]);
-  struct Part {
-    fluid::BodyField::Hit hit;
-    sdk::Vec3 area;
-  };
-  std::array<Part, 7> parts{};
-  std::size_t count = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto d = static_cast<std::size_t>(axis);
-    const std::size_t low = at(o), high = at(o + grid.stride[d]);
-    parts[0].area[axis] = (open.component[d][low] - open.component[d][high]) / grid.spacing[axis];
-    for (const bool is_high : {false, true}) {
-      const std::size_t face = is_high ? high : low;
-      const double blocked = open.component[d][face] - passable_area_.component[d][face];
-      if (!(blocked > 0.0)) continue;
-      sdk::Vec3 opposite = centre;
-      opposite[axis] += (is_high ? 1.0 : -1.0) * grid.spacing[axis];
-      const fluid::BodyField::Hit hit = hit_between(bodies, centre, opposite);
-      std::size_t n = 1;
-      while (n < count && parts[n].hit.body != hit.body) ++n;
-      if (n == count) parts[count++].hit = hit;
-      parts[n].area[axis] += (is_high ? blocked : -blocked) / grid.spacing[axis];
-    }
-  }
-  if (count == 1 && !(norm(parts[0].area) * grid.spacing.x > 1e-9)) return;
-  parts[0].hit = bodies.nearest(centre);
-  for (std::size_t n = 1; n < count; ++n) {
-    if (parts[n].hit.body == parts[0].hit.body) parts[0].area += parts[n].area;
-  }
-  add_body(cell, parts[0].hit, parts[0].area);
-  for (std::size_t n = 1; n < count; ++n) {
-    if (parts[n].hit.body != parts[0].hit.body) add_body(cell, parts[n].hit, parts[n].area);
-  }
-}
-
-/// A surface that ends before a side does not pass it, however coarse the cell that both share: it
-/// does where it meets the face of the cell that is a part of the side.
-std::uint8_t DustStage::sides_passed(const std::array<int, 3>& cell, int body, double time) const {
-  const Grid& grid = fluid_.grid();
-  unsigned passed = 0;
-  for (unsigned side = 0; side < 6; ++side) {
-    const std::size_t d = side / 2;
-    const bool is_high = side % 2 != 0;
-    if (grid.is_periodic[d] || cell[d] != (is_high ? grid.count[d] - 1 : 0)) continue;
-    const int axis = static_cast<int>(d);
-    sdk::Vec3 middle = grid.centre(cell[0], cell[1], cell[2]);
-    middle[axis] += (is_high ? 0.5 : -0.5) * grid.spacing[axis];
-    sdk::Vec3 half = 0.5 * grid.spacing;
-    half[axis] = 0.0;
-    const bodies::Body& b = models_.bodies[static_cast<std::size_t>(body)];
-    const double finest = k_finest_part * norm(half);
-    if (bodies::may_meet_box(b, b.placement(time), middle, half, finest)) passed |= 1U << side;
-  }
-  return static_cast<std::uint8_t>(passed);
-}
-
-void DustStage::find_walls(double time) {
-  const Grid& grid = fluid_.grid();
-  const fluid::CellField& share = fluid_.solver().open_fraction();
-  const fluid::BodyField bodies(grid, models_.bodies, time, fluid::BodyField::Which::all);
-  pieces_.clear();
-  running_.clear();
-  flow_.walls_found += 1;
-  if (wall_shear_) wall_shear_->clear();
-  for (int k = 0; k < grid.count[2]; ++k) {
-    for (int j = 0; j < grid.count[1]; ++j) {
-      for (int i = 0; i < grid.count[0]; ++i) {
-        if (!(share[at(grid.index(i, j, k))] > 0.0)) continue;
-        add_sides({i, j, k});
-        add_bodies({i, j, k}, bodies);
-      }
-    }
-  }
-  flow_.surface_motions.clear();
-  if (running_.empty()) return;
-  flow_.surface_motions.resize(pieces_.size());
-  for (const RunningPiece& running : running_) {
-    airborne::SurfaceMotion& motion = flow_.surface_motions[running.piece];
-    motion.point = running.point;
-    motion.area = -grid.cell_volume() * pieces_[running.piece].area;
-    motion.displaces = models_.bodies[static_cast<std::size_t>(running.body)].displaces();
-    motion.sides_passed = sides_passed(running.cell, running.body, time);
-  }
-}
-
-void DustStage::find_surface_motions(double time) {
-  for (const RunningPiece& running : running_) {
-    airborne::SurfaceMotion& motion = flow_.surface_motions[running.piece];
-    motion.velocity = models_.bodies[static_cast<std::size_t>(running.body)].surface_velocity(
-        motion.point, running.normal, time);
-  }
-}
-
 /// Open share times void fraction.
 void DustStage::find_volume(fluid::CellField& volume) const {
   const Grid& grid = fluid_.grid();
@@ -253,7 +102,7 @@ void DustStage::find_volume(fluid::CellField& volume) const {
 
 void DustStage::find_passage() {
   const Grid& grid = fluid_.grid();
-  const fluid::FaceField& open = passable_area_;
+  const fluid::FaceField& open = walls_.passable_area();
   const fluid::CellField& eps = fluid_.void_fraction();
   for (std::size_t d = 0; d < 3; ++d) {
     std::array<int, 3> n = grid.count;
@@ -307,20 +156,14 @@ void DustStage::advance(double time) {
   find_volume(flow_.volume_after);
   fluid_.solver().find_throughflow(flow_.throughflow);
   if (must_find_walls_ || fluid_.solver().has_moving_bodies()) {
-    passable_area_ = fluid_.solver().passable_area();
-    find_walls(time + setup_.time.fluid_step);
+    walls_.find(time + setup_.time.fluid_step, must_find_walls_);
     must_find_walls_ = false;
+    flow_.walls_found += 1;
   }
+  flow_.void_fraction = &fluid_.void_fraction();
   find_passage();
   find_outflows();
-  find_surface_motions(time + 0.5 * setup_.time.fluid_step);
-  flow_.walls = pieces_;
-  for (airborne::WallPiece& piece : flow_.walls) {
-    piece.area = fluid_.void_fraction()[static_cast<std::size_t>(piece.cell)] * piece.area;
-  }
-  if (wall_shear_) {
-    wall_shear_->find(fluid_.solver().velocity(), flow_.surface_motions, flow_.friction_velocity);
-  }
+  walls_.fill(time + 0.5 * setup_.time.fluid_step, flow_);
   if (const fluid::CellField* eddies = fluid_.solver().eddy_viscosity()) {
     flow_.eddy_diffusivity.resize(grid.size);
     for (std::size_t n = 0; n < grid.size; ++n) {

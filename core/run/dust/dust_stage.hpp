@@ -3,13 +3,12 @@
 
 #include "airborne/dust_field.hpp"
 #include "airborne/dust_weight.hpp"
-#include "fluid/geometry/body_field.hpp"
 #include "io/run_files.hpp"
 #include "particles/openings/opening.hpp"
 #include "run/archive_parts.hpp"
 #include "run/dust/dust_table.hpp"
+#include "run/dust/dust_walls.hpp"
 #include "run/dust/scavenging.hpp"
-#include "run/dust/wall_shear.hpp"
 #include "run/fluid_stage.hpp"
 #include "run/models.hpp"
 #include "setup/setup.hpp"
@@ -90,16 +89,6 @@ class DustStage {
 
  private:
   [[nodiscard]] std::array<int, 3> cell_at(sdk::Vec3 place) const;
-  [[nodiscard]] std::uint8_t sides_passed(const std::array<int, 3>& cell, int body,
-                                          double time) const;
-  void find_walls(double time);
-  /// The pieces of sides in a cell.
-  void add_sides(const std::array<int, 3>& cell);
-  /// The pieces of bodies' surfaces in a cell.
-  void add_bodies(const std::array<int, 3>& cell, const fluid::BodyField& bodies);
-  void add_body(const std::array<int, 3>& cell, const fluid::BodyField::Hit& hit, sdk::Vec3 area);
-  /// How the surfaces of the pieces run at `time` [s].
-  void find_surface_motions(double time);
   void find_volume(fluid::CellField& volume) const;
   void find_passage();
   void find_outflows();
@@ -111,23 +100,11 @@ class DustStage {
   std::vector<particles::Opening> openings_;
   airborne::Flow flow_;
   bool must_find_walls_ = true;
-  fluid::FaceField passable_area_;
-  std::vector<airborne::WallPiece>
-      pieces_;  ///< with the areas of surfaces, whatever is before them
-  /// A piece of a body that moves.
-  struct RunningPiece {
-    std::size_t piece;
-    std::array<int, 3> cell;
-    int body;
-    sdk::Vec3 normal;
-    sdk::Vec3 point;  ///< [m] of the surface
-  };
-  std::vector<RunningPiece> running_;
+  DustWalls walls_;
   airborne::DustField field_;
   airborne::DustWeight weight_;
   DustTable table_;
   std::optional<Scavenging> scavenging_;
-  std::optional<WallShear> wall_shear_;  ///< of pieces_; where somebody asks
   std::vector<std::string> names_;
 };
 

@@ -7,6 +7,8 @@
 #include <dust/sdk/sampling.hpp>
 
 #include <array>
+#include <cmath>
+#include <string>
 
 namespace {
 
@@ -81,24 +83,41 @@ class StreamSection final : public sdk::Sensor {
 
   void summary(sdk::FigureSink& sink) const override {
     const Stream s = stream();
-    const double normal = dot(s.velocity, rectangle_.normal());
-    const double none = sdk::error_beside(normal, sdk::k_no_estimate);
+    const sdk::Vec3 n = rectangle_.normal();
+    const double normal = dot(s.velocity, n);
+    const double speed = norm(s.velocity);
+    const sdk::Vec3 tangential = s.velocity - normal * n;
     sink.figure("mass_flow", s.mass_flow, "kg/s", means_.error(0),
                 sdk::overview(sdk::Quantity::mass_rate, 1));
-    sink.figure("velocity_x", s.velocity.x, "m/s", none, sdk::detail(sdk::Quantity::velocity));
-    sink.figure("velocity_y", s.velocity.y, "m/s", none, sdk::detail(sdk::Quantity::velocity));
-    sink.figure("velocity_z", s.velocity.z, "m/s", none, sdk::detail(sdk::Quantity::velocity));
-    sink.figure("speed", norm(s.velocity), "m/s", none, sdk::overview(sdk::Quantity::velocity, 2));
-    sink.figure("angle", formula::angle(normal, norm(s.velocity - normal * rectangle_.normal())),
-                "rad", none, sdk::overview(sdk::Quantity::angle, 3));
-    sink.figure("fill_ratio", fill_ratio(s), "1", none, sdk::overview(sdk::Quantity::ratio, 4));
-    sink.figure("impact_pressure", formula::impact_pressure(p_.bulk_density, normal), "Pa", none,
+    for (int d = 0; d < 3; ++d) {
+      sdk::Vec3 axis;
+      axis[d] = 1.0;
+      sink.figure(std::string("velocity_") + "xyz"[d], s.velocity[d], "m/s",
+                  error_along(s, axis, s.velocity[d]), sdk::detail(sdk::Quantity::velocity));
+    }
+    sink.figure("speed", speed, "m/s", error_along(s, s.velocity / speed, speed),
+                sdk::overview(sdk::Quantity::velocity, 2));
+    const double angle = formula::angle(normal, norm(tangential));
+    // What goes across the stream in the plane of both turns it.
+    const sdk::Vec3 turning =
+        (norm(tangential) / speed) * n - (normal / speed / norm(tangential)) * tangential;
+    sink.figure("angle", angle, "rad", error_along(s, turning / speed, angle),
+                sdk::overview(sdk::Quantity::angle, 3));
+    const double fill = fill_ratio(s);
+    sink.figure("fill_ratio", fill, "1", fill_error(s, fill),
+                sdk::overview(sdk::Quantity::ratio, 4));
+    const double pressure = formula::impact_pressure(p_.bulk_density, normal);
+    sink.figure("impact_pressure", pressure, "Pa",
+                error_along(s, 2.0 * p_.bulk_density * normal * n, pressure),
                 sdk::overview(sdk::Quantity::pressure, 5));
     const double belt = norm(p_.belt_velocity);
     if (belt == 0.0) return;
-    const double along = dot(s.velocity, p_.belt_velocity) / belt;
-    sink.figure("speed_along_belt", along, "m/s", none, sdk::detail(sdk::Quantity::velocity));
-    sink.figure("speed_along_belt_over_belt_speed", along / belt, "1", none,
+    const sdk::Vec3 along_belt = p_.belt_velocity / belt;
+    const double along = dot(s.velocity, along_belt);
+    sink.figure("speed_along_belt", along, "m/s", error_along(s, along_belt, along),
+                sdk::detail(sdk::Quantity::velocity));
+    sink.figure("speed_along_belt_over_belt_speed", along / belt, "1",
+                error_along(s, along_belt / belt, along / belt),
                 sdk::overview(sdk::Quantity::ratio, 6));
   }
 
@@ -124,6 +143,27 @@ class StreamSection final : public sdk::Sensor {
     constexpr sdk::Vec3 k_none{sdk::k_no_value, sdk::k_no_value, sdk::k_no_value};
     if (!(flow > 0.0)) return {flow, k_none};
     return {flow, sdk::Vec3{means_.mean(1), means_.mean(2), means_.mean(3)} / flow};
+  }
+  /// Of a `value` that follows from the mean velocity alone: `gradient` are its derivatives by
+  /// that.
+  [[nodiscard]] double error_along(const Stream& s, sdk::Vec3 gradient, double value) const {
+    // A stream straight onto the plane has no direction along it to turn to.
+    const bool is_known = std::isfinite(value) && std::isfinite(norm(gradient));
+    if (!is_known) return sdk::error_beside(value, sdk::k_no_estimate);
+    const double f = s.mass_flow;
+    const std::array<double, k_columns> partials{-dot(gradient, s.velocity) / f, gradient.x / f,
+                                                 gradient.y / f, gradient.z / f};
+    return means_.error_of_function(partials, value);
+  }
+  /// Of a ratio that goes as the square of the mass flow over the momentum flow along the normal.
+  [[nodiscard]] double fill_error(const Stream& s, double value) const {
+    const sdk::Vec3 n = rectangle_.normal();
+    const double normal = dot(s.velocity, n);
+    if (!(normal > 0.0)) return sdk::error_beside(value, sdk::k_no_estimate);
+    const double f = s.mass_flow;
+    const sdk::Vec3 g = (-value / (f * normal)) * n;
+    const std::array<double, k_columns> partials{2.0 * value / f, g.x, g.y, g.z};
+    return means_.error_of_function(partials, value);
   }
   [[nodiscard]] double fill_ratio(const Stream& s) const {
     return formula::fill_ratio(s.mass_flow, p_.bulk_density, dot(s.velocity, rectangle_.normal()),

@@ -34,6 +34,18 @@ TEST_CASE("a check shall say what dust the load carries, what sets it free and w
   CHECK(outcome.out.find("caught by top\n") != std::string::npos);
 }
 
+TEST_CASE("a check shall say how much air a side drives, and which way") {
+  const auto side = [](const std::string& flow) {
+    const auto outcome = engine({"check", k_plant, "--set", "dust.hoods=null", "--set",
+                                 "domain.boundaries.top.air.flow=" + flow});
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const auto at = outcome.out.find("top: ");
+    return outcome.out.substr(at, outcome.out.find('\n', at) - at);
+  };
+  CHECK(side("1800 m3/h").ends_with(", air: hood, 1800 m3/h out"));
+  CHECK(side("-1800 m3/h").ends_with(", air: hood, 1800 m3/h in"));
+}
+
 TEST_CASE("the numbers of a check shall hold the flow of dust by class") {
   const auto outcome = engine(
       {"check", k_plant, "--json", "--set", "materials.limestone.dust_load=[0.2 %, 0.3 %, 0.6 %]"});

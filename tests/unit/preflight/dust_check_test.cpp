@@ -206,6 +206,31 @@ TEST_CASE("a hood in a side of the domain shall be looked at as well") {
   CHECK_FALSE(has(warnings(hood), "lies over it"));
 }
 
+TEST_CASE("an opening smaller than a face shall be asked for its speed, not for the face's") {
+  const auto warned = [](const std::string& max) {
+    const auto set = std::vector<scenario::Override>{
+        {"bodies", "{}"},
+        {"domain.boundaries.top",
+         "{grains: wall, material: steel, air: {model: hood, flow: 100 l/s, min: [0.4, 0, 1 m], "
+         "max: [" +
+             max + ", 1 m]}}"}};
+    return has(warnings(set), "domain.boundaries.top.air: drives the fluid at");
+  };
+  CHECK(warned("0.42 m, 0.02 m"));  // 250 m/s; 10 m/s over the face
+  CHECK_FALSE(warned("0.45 m, 0.05 m"));
+}
+
+TEST_CASE("means over fewer than two blocks shall be warned of") {
+  const auto warned = [](const std::string& block) {
+    return has(warnings({{"sensors.low",
+                          "{model: low_pressure, averaging_after: 0.06 s, block: " + block + "}"}}),
+               "sensors.low.block: the 0.04 s that are averaged hold fewer than two blocks");
+  };
+  CHECK(warned("0.03 s"));
+  CHECK_FALSE(warned("0.02 s"));
+  CHECK_FALSE(warned("0.004 s"));
+}
+
 TEST_CASE("the narrowest turn that dust follows shall be that of Stokes number 0.2") {
   // tau = 2500 * 1e-10 / (18 * 2e-5) = 0.694 ms; at 4 m/s: 0.694e-3 * 4 / 0.2 = 13.9 mm.
   CHECK(preflight::narrowest_turn(10e-6, 2500, 2e-5, 4.0) == test::approx(0.0138889).epsilon(1e-5));

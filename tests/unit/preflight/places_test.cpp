@@ -525,3 +525,75 @@ TEST_CASE(
     return line.find("emitters.feed: brings some 1.1e+11 grains a second") != std::string::npos;
   }));
 }
+
+namespace {
+
+bool is_warned(const std::vector<scenario::Override>& set, const std::string& text) {
+  const test::Said all = said(set);
+  REQUIRE(all.errors == std::vector<std::string>{});
+  const auto found = std::any_of(all.warnings.begin(), all.warnings.end(), [&](const auto& line) {
+    return line.find(text) != std::string::npos;
+  });
+  return found;
+}
+
+/// A belt of 40 mm whose top, at 92 mm, runs at 1 m/s to the right or, turned round, to the left.
+std::vector<scenario::Override> with_belt(bool is_turned, std::vector<scenario::Override> more) {
+  const std::string ends = is_turned ? "head: [30, 25, 80 mm], tail: [70, 25, 80 mm]"
+                                     : "head: [70, 25, 80 mm], tail: [30, 25, 80 mm]";
+  more.insert(more.end(), {{"bodies.belt", "{shape: belt_conveyor, material: sand, " + ends +
+                                               ", radius: 10 mm, thickness: 2 mm, width: 30 mm, "
+                                               "motion: belt, speed: 1 m/s}"},
+                           {"domain.boundaries.left", "{grains: open}"},
+                           {"domain.boundaries.right", "{grains: open}"}});
+  return more;
+}
+
+}  // namespace
+
+TEST_CASE("wear of no wall shall be warned of") {
+  const auto warned = [](const std::string& min, const std::string& max) {
+    return is_warned({{"sensors.liner", "{model: wear, min: " + min + ", max: " + max +
+                                            ", cell: 5 mm, coefficient: 1e-4, hardness: 1 GPa}"}},
+                     "sensors.liner.min: no wall has a part in the box");
+  };
+  CHECK(warned("[20, 10, 100 mm]", "[60, 40, 120 mm]"));
+  CHECK(warned("[20, 10, 22 mm]", "[60, 40, 28 mm]"));  // inside the shelf
+  CHECK_FALSE(warned("[20, 10, 25 mm]", "[60, 40, 35 mm]"));
+  CHECK_FALSE(warned("[20, 0, 100 mm]", "[60, 40, 120 mm]"));  // the front
+  CHECK(warned("[20, 10, 100 mm]", "[60, 50, 120 mm]"));       // the back is open
+  CHECK_FALSE(warned("[20, 10, 0 mm]", "[60, 40, 10 mm]"));    // the bottom
+}
+
+TEST_CASE("the load of no belt, and of one that runs another way, shall be warned of") {
+  const auto load = [](const std::string& point, const std::string& direction) {
+    return scenario::Override{"sensors.load", "{model: belt_load, point: " + point +
+                                                  ", direction: " + direction +
+                                                  ", length: 20 mm, width: 30 mm, height: 20 mm}"};
+  };
+  const std::string none = "it looks at no belt";
+  CHECK(is_warned(with_belt(false, {load("[40, 25, 150 mm]", "[1, 0, 0]")}), none));
+  CHECK_FALSE(is_warned(with_belt(false, {load("[40, 25, 92 mm]", "[1, 0, 0]")}), none));
+  CHECK(is_warned(with_belt(false, {load("[50, 15, 92 mm]", "[0, 1, 0]")}),
+                  "sensors.load.direction: is across the way that 'belt' runs there, 1 m/s"));
+  CHECK(is_warned(with_belt(false, {load("[60, 25, 92 mm]", "[-1, 0, 0]")}),
+                  "sensors.load.direction: is against the way that 'belt' runs there, 1 m/s"));
+  CHECK_FALSE(is_warned(with_belt(true, {load("[60, 25, 92 mm]", "[-1, 0, 0]")}), "direction"));
+  // The shelf stands: it has no way.
+  CHECK_FALSE(is_warned({load("[40, 25, 30 mm]", "[0, 1, 0]")}, "direction"));
+}
+
+TEST_CASE("a stream that comes in against the way of the belt below shall be warned of") {
+  const auto warned = [](bool is_turned, const std::string& z, const std::string& velocity) {
+    return is_warned(
+        with_belt(is_turned, {{"emitters.feed.mass_flow", "1 g/s"},
+                              {"emitters.feed.min", "[35, 20, " + z + " mm]"},
+                              {"emitters.feed.max", "[40, 30, " + z + " mm]"},
+                              {"emitters.feed.velocity", velocity}}),
+        "emitters.feed: its grains come in at 0.5 m/s against the way of 'belt' below them");
+  };
+  CHECK(warned(true, "100", "[0.5, 0, -0.5 m/s]"));
+  CHECK_FALSE(warned(false, "100", "[0.5, 0, -0.5 m/s]"));
+  CHECK_FALSE(warned(true, "100", "[0, 0, -0.5 m/s]"));
+  CHECK_FALSE(warned(true, "190", "[0.5, 0, -0.5 m/s]"));  // from another belt, perhaps
+}

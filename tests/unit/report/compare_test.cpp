@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <regex>
 
@@ -98,6 +99,76 @@ TEST_CASE("two runs shall stand side by side in text and on a page") {
   CHECK(data["plots"]["series"][0]["title"] == "kinetic_energy");
   CHECK_FALSE(std::regex_search(page, std::regex("(src|href)\\s*=\\s*[\"']?(https?:)?//")));
   CHECK(holds(page, "default-src 'none'"));
+}
+
+TEST_CASE("places of low pressure shall be compared where they are, whatever their rank") {
+  const auto write = [](const RunFolder& folder, const std::vector<std::array<double, 3>>& places) {
+    json summary = fake_summary();
+    json sensors = json::object();
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      const auto entry = [&](double value, const char* unit, const char* quantity) {
+        json figure = dust::test::with_role(dust::test::fake_figure(value, unit, -1.0),
+                                            "low_pressure", quantity, "", 0.0);
+        figure["index"] = n + 1;
+        return figure;
+      };
+      sensors["suction"]["place_" + std::to_string(n + 1)] = {
+          {"x", entry(places[n][0], "m", "x")},
+          {"z", entry(places[n][1], "m", "z")},
+          {"depth", entry(places[n][2], "Pa", "depth_of_pressure")}};
+    }
+    summary["sensors"] = sensors;
+    folder.write("summary.json", summary.dump());
+    folder.write("scenario.yaml", "name: places\n");
+    folder.write("series.csv", "time [s]\n0\n");
+    folder.write("report.json", "{}");
+    folder.write_h5({});
+  };
+  const RunFolder first, second;
+  write(first, {{0.1, 0.2, 9.0}, {0.5, 0.6, 8.0}});
+  // The other one is the deeper now, and a third has come.
+  write(second, {{0.51, 0.6, 9.5}, {0.1, 0.21, 8.5}, {0.9, 0.9, 1.0}});
+  const auto found = compare_runs(first.path(), second.path());
+  const auto pair_of = [&](const std::string& name) {
+    const auto at = std::find_if(found.headline.begin(), found.headline.end(),
+                                 [&](const QuantityPair& pair) { return pair.name == name; });
+    REQUIRE(at != found.headline.end());
+    return *at;
+  };
+  CHECK(pair_of("place 1, x").second == 0.1);
+  CHECK(pair_of("place 1, depth").second == 8.5);
+  CHECK(pair_of("place 2, x").second == 0.51);
+  CHECK(pair_of("place 2, depth").difference() == 1.5);
+  CHECK(std::isnan(pair_of("place 3, x").first));
+  CHECK(pair_of("place 3, x").second == 0.9);
+}
+
+TEST_CASE("a figure without an error shall say why, and less than an atom shall be nothing") {
+  const auto write = [](const RunFolder& folder, double value, const char* reason) {
+    json summary = fake_summary();
+    json figure = dust::test::fake_figure(value, "kg", -1.0);
+    figure["no_error"] = reason;
+    figure["towards"] = "overview";
+    summary["sensors"]["lip"]["lost"] = figure;
+    folder.write("summary.json", summary.dump());
+    folder.write("scenario.yaml", "name: reasons\n");
+    folder.write("series.csv", "time [s]\n0\n");
+    folder.write("report.json", "{}");
+    folder.write_h5({});
+  };
+  const RunFolder first, second;
+  write(first, 1e-168, "");
+  write(second, 0.25, "not steady");
+  const std::string text = comparison_text(compare_runs(first.path(), second.path()));
+  CAPTURE(text);
+  CHECK(holds(text, "0.25 (not steady)"));
+  CHECK_FALSE(holds(text, "e-168"));
+  const json page = page_data(page_of(first, second));
+  const bool has_reason =
+      std::any_of(page["headline"].begin(), page["headline"].end(), [](const json& pair) {
+        return pair["name"] == "lost" && pair["second_reason"] == "not steady";
+      });
+  CHECK(has_reason);
 }
 
 TEST_CASE("runs that share nothing shall be compared all the same") {

@@ -67,7 +67,7 @@ const std::string& material_name(const Setup& setup, int material) {
   return setup.materials[static_cast<std::size_t>(material)].name;
 }
 
-void print_domain(std::ostream& out, const Setup& setup) {
+void print_domain(std::ostream& out, const Setup& setup, const Derived& derived) {
   const auto& domain = setup.domain;
   const sdk::Vec3 edges = domain.max - domain.min;
   out << "  domain     " << base::extent_text({edges.x, edges.y, edges.z}) << ", gravity "
@@ -87,6 +87,9 @@ void print_domain(std::ostream& out, const Setup& setup) {
         break;
     }
     if (side.air) out << ", air: " << side.air->name;
+    const double flow = derived.side_flows[n];
+    if (flow != 0.0)
+      out << ", " << base::volume_flow_text(std::abs(flow)) << (flow > 0.0 ? " in" : " out");
     out << '\n';
   }
 }
@@ -424,7 +427,7 @@ std::string check_summary(const Setup& setup, const DustSetup& dust, const Deriv
       << counted(std::ceil(time.end / time.fluid_step - 1e-9)) << " steps of "
       << engineering(time.fluid_step, "s") << ", a frame every "
       << engineering(time.output_every, "s") << '\n';
-  print_domain(out, setup);
+  print_domain(out, setup, derived);
   print_things(out, setup, derived);
   out << bodies_text(survey);
   print_fluid(out, setup, derived);

@@ -228,6 +228,21 @@ class BatchMeans {
                  0.0, mean(top), std::numeric_limits<double>::infinity());
     return error < 0.0 ? error : error / std::abs(below);
   }
+  /// Standard error of a function of several means, in its unit, to first order: that of the mean
+  /// of \f$ \sum_c g_c x_c \f$ with `partials` its derivatives \f$ g_c \f$ by the means, as many
+  /// as there are columns; `value` is the function's. What columns have in common cancels as far as
+  /// the function lets it. The reasons why there is none are those of error().
+  [[nodiscard]] double error_of_function(std::span<const double> partials, double value) const {
+    const auto sum_of = [&](const auto& column_value) {
+      double sum = 0.0;
+      for (std::size_t c = 0; c < columns_; ++c) sum += partials[c] * column_value(c);
+      return sum;
+    };
+    return error_of(
+        [&](std::size_t b) { return sum_of([&](std::size_t c) { return batch_mean(b, c); }); },
+        sum_of([&](std::size_t c) { return mean(c); }), value,
+        std::numeric_limits<double>::infinity());
+  }
   /// Whether a column that counts something grows evenly: its sum, batch by batch, is nowhere
   /// farther from the straight line than a tenth of the whole, and it has not stopped or not begun
   /// for more batches at an end than anywhere between. False without samples.

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "airborne/flow.hpp"
+#include "fluid/geometry/body_field.hpp"
+#include "run/dust/wall_shear.hpp"
+#include "run/fluid_stage.hpp"
+#include "run/models.hpp"
+#include "setup/setup.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace dust::run {
+
+/// The surfaces that dust meets, cell by cell: sides that hold grains, and bodies.
+class DustWalls {
+ public:
+  /// All are kept by reference; `has_shear`: somebody asks for the friction velocity.
+  DustWalls(const scenario::Setup& setup, const Models& models, const FluidStage& fluid,
+            bool has_shear);
+
+  /// Where they are at `time` [s]. `is_anew`: not only bodies that move may have changed.
+  void find(double time, bool is_anew);
+  /// Fills in what dust is told of them, their motion at `time` [s].
+  void fill(double time, airborne::Flow& flow);
+  /// [-] Share of each face that gas can pass.
+  [[nodiscard]] const fluid::FaceField& passable_area() const { return passable_area_; }
+
+ private:
+  using Cell = std::array<int, 3>;
+
+  [[nodiscard]] std::uint8_t sides_passed(const Cell& cell, int body, double time) const;
+  /// The pieces of sides in a cell.
+  void add_sides(const Cell& cell);
+  /// The pieces of bodies' surfaces in a cell.
+  void add_bodies(const Cell& cell, const fluid::BodyField& bodies);
+  void add_body(const Cell& cell, const fluid::BodyField::Hit& hit, sdk::Vec3 area,
+                double cancelled);
+  /// See cancelled_area.
+  [[nodiscard]] double cancelled_in(const Cell& cell, const fluid::BodyField& bodies);
+  void find_motions(double time);
+
+  const scenario::Setup& setup_;
+  const Models& models_;
+  const FluidStage& fluid_;
+  fluid::FaceField passable_area_;
+  std::vector<airborne::WallPiece> pieces_;  ///< with all of their areas, whatever is before them
+  /// A piece of a body that moves.
+  struct RunningPiece {
+    std::size_t piece;
+    Cell cell;
+    int body;
+    sdk::Vec3 normal;
+    sdk::Vec3 point;  ///< [m] of the surface
+  };
+  std::vector<RunningPiece> running_;
+  std::vector<airborne::SurfaceMotion> motions_;  ///< of pieces_; empty: all stand
+  std::optional<WallShear> shear_;                ///< of pieces_; where somebody asks
+  /// [1/m] What has been found of cells that nothing which moves comes near.
+  std::unordered_map<std::int32_t, double> cancelled_;
+};
+
+}  // namespace dust::run
