@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/way_on.hpp"
 
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 
 namespace dust::io {
 

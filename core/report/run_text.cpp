@@ -2,7 +2,7 @@
 #include "report/run_text.hpp"
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 
 #include <cmath>
 #include <cstdlib>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/end_signals.hpp"
 #include "base/error.hpp"
 #include "base/log.hpp"
+#include "base/process/end_signals.hpp"
 #include "dust/sdk/error.hpp"
 #include "fluid/geometry/body_suction.hpp"
 #include "io/run_files.hpp"

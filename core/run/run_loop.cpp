@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/log.hpp"
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 #include "base/write_error.hpp"
 #include "io/stored_state.hpp"
 #include "preflight/derived.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenario/reader.hpp"
 
-#include "base/text.hpp"
 #include "dust/sdk/emitter.hpp"
 #include "scenario/checks.hpp"
 #include "scenario/reading/block_readers.hpp"
@@ -77,31 +76,6 @@ void check_means(const Reading& reading, const Entry& sensor, const std::string&
   }
 }
 
-/// Sensors whose means hold too little of the run to have an error.
-void check_blocks(const Reading& reading, const Entry& sensor, const std::string& path,
-                  const std::optional<ModelChoice>& choice) {
-  const auto* plugin = choice ? reading.registry.find("sensor", choice->name) : nullptr;
-  if (plugin == nullptr) return;
-  const double* block = nullptr;
-  const double* begin = nullptr;
-  for (std::size_t n = 0; n < choice->values.size(); ++n) {
-    const sdk::Parameter& parameter = plugin->info.parameters[n];
-    if (parameter.name == "block") block = std::get_if<double>(&choice->values[n]);
-    if (parameter.name == "averaging_after") begin = std::get_if<double>(&choice->values[n]);
-  }
-  if (block == nullptr || begin == nullptr) return;
-  const double averaged = reading.setup.time.end - *begin;
-  // An error is the scatter of at least two of them.
-  if (!(averaged > 0.0) || averaged >= 2.0 * *block) return;
-  reading.diagnostics.warning(mark_of(sensor.value, "block"),
-                              path + ".block: the " + base::duration_text(averaged) +
-                                  " that are averaged hold fewer than two "
-                                  "blocks of " +
-                                  base::duration_text(*block) +
-                                  ": its means have no error; make it " +
-                                  base::duration_text(0.1 * averaged));
-}
-
 void read_sensors(Reading& reading, MapReader& top) {
   Node written = Node::make_map();
   for_each_named(reading, top, "sensors", [&](const Entry& entry, const std::string& path) {
@@ -123,7 +97,6 @@ void read_sensors(Reading& reading, MapReader& top) {
     }
     if (!sensor.enabled) return;
     check_means(reading, entry, path, model.choice);
-    check_blocks(reading, entry, path, model.choice);
     reading.setup.sensors.push_back({entry.key, model.choice.value_or(ModelChoice{})});
   });
   if (!written.entries.empty()) add(reading.written, "sensors", std::move(written));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/study.hpp"
 
-#include "base/end_signals.hpp"
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/process/end_signals.hpp"
+#include "base/process/memory.hpp"
+#include "base/process/shell_word.hpp"
 #include "base/text.hpp"
 #include "io/atomic_file.hpp"
 #include "io/result_folder.hpp"
@@ -24,6 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// [bytes] Where the system does not tell what is free.
+constexpr double k_modest_memory = 1e9;
+
 Resources resources_of(const StudyOptions& options, const Execution& execution,
                        std::size_t points) {
   Resources r;
@@ -38,7 +42,7 @@ Resources resources_of(const StudyOptions& options, const Execution& execution,
   if (r.jobs == 0) r.jobs = std::max(1, cores / std::max(1, threads));
   r.jobs = std::min(r.jobs, most);
   r.threads = threads > 0 ? threads : std::max(1, cores / r.jobs);
-  r.memory_bytes = execution.memory_share * free_memory();
+  r.memory_bytes = execution.memory_share * base::free_memory().value_or(k_modest_memory);
   return r;
 }
 

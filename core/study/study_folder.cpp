@@ -14,8 +14,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -114,18 +112,6 @@ FolderLock::FolderLock(const fs::path& folder) {
 
 FolderLock::~FolderLock() {
   if (descriptor_ >= 0) close(descriptor_);
-}
-
-double free_memory() {
-  std::ifstream stream("/proc/meminfo");
-  std::string line;
-  while (std::getline(stream, line)) {
-    std::istringstream words(line);
-    std::string name;
-    double kilobytes = 0.0;
-    if (words >> name >> kilobytes && name == "MemAvailable:") return 1024.0 * kilobytes;
-  }
-  return 1e9;
 }
 
 }  // namespace dust::study

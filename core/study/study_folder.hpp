@@ -38,7 +38,4 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-/// Memory that is free now [B].
-double free_memory();
-
 }  // namespace dust::study

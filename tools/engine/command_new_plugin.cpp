@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 #include "commands.hpp"
 #include "io/atomic_file.hpp"
 #include "reserved_names.hpp"

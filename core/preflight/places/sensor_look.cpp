@@ -1,9 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/places/sensor_look.hpp"
 
+#include "base/text.hpp"
+
 #include <exception>
+#include <variant>
 
 namespace dust::preflight {
+namespace {
+
+/// Warns of means of blocks that hold too little of the run to have an error.
+void check_blocks(const scenario::Setup& setup, const scenario::SensorSpec& spec,
+                  const sdk::ParameterSchema& parameters, scenario::Diagnostics& diagnostics) {
+  const double* block = nullptr;
+  const double* begin = nullptr;
+  for (std::size_t n = 0; n < parameters.size() && n < spec.model.values.size(); ++n) {
+    if (parameters[n].name == "block") block = std::get_if<double>(&spec.model.values[n]);
+    if (parameters[n].name == "averaging_after") begin = std::get_if<double>(&spec.model.values[n]);
+  }
+  if (block == nullptr || begin == nullptr) return;
+  const double averaged = setup.time.end - *begin;
+  // An error is the scatter of at least two of them.
+  if (!(averaged > 0.0) || averaged >= 2.0 * *block) return;
+  diagnostics.warning(spec.model.where,
+                      spec.model.path + ".block: the " + base::duration_text(averaged) +
+                          " that are averaged hold fewer than two blocks of " +
+                          base::duration_text(*block) + ": its means have no error; make it " +
+                          base::duration_text(0.1 * averaged));
+}
+
+}  // namespace
+
 sdk::WorldView empty_world(const scenario::Setup& setup, std::span<const double> class_diameters) {
   sdk::WorldView world;
   world.interval = setup.time.fluid_step;
@@ -25,6 +52,8 @@ void check_first_looks(const scenario::Setup& setup, std::span<const double> cla
       diagnostics.warning(spec.model.where, spec.model.path +
                                                 ": looks at the fluid, and fluid is none: it has "
                                                 "nothing to tell; take it out, or declare a fluid");
+    } else if (const auto* entry = registry.find(spec.model.kind, spec.model.name)) {
+      check_blocks(setup, spec, entry->info.parameters, diagnostics);
     }
     try {
       sensor->observe(world);

@@ -2,7 +2,7 @@
 #include "run/branch/origin.hpp"
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 #include "base/text.hpp"
 #include "scenario/diagnostics.hpp"
 #include "scenario/text/tree.hpp"

@@ -2,7 +2,7 @@
 #include "run/folder/failure.hpp"
 
 #include "base/log.hpp"
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 
 namespace dust::run {
 namespace {

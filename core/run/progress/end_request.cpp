@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/progress/end_request.hpp"
 
-#include "base/end_signals.hpp"
+#include "base/process/end_signals.hpp"
 
 #include <csignal>
 

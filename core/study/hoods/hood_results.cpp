@@ -2,7 +2,7 @@
 #include "study/hoods/hood_results.hpp"
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 #include "dust/sdk/sampling.hpp"
 #include "io/atomic_file.hpp"
 #include "report/highlights.hpp"

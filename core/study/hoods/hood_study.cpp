@@ -2,7 +2,7 @@
 #include "study/hoods/hood_study.hpp"
 
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 #include "base/text.hpp"
 #include "preflight/derived.hpp"
 #include "report/highlights.hpp"

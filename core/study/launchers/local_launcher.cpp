@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/launchers/launcher.hpp"
 
-#include "base/end_signals.hpp"
 #include "base/error.hpp"
+#include "base/process/end_signals.hpp"
 
 #include <fcntl.h>
 #include <sys/prctl.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.hpp"
+#include "base/process/memory.hpp"
 
 #include <doctest/doctest.h>
 
@@ -102,4 +103,13 @@ TEST_CASE("Mass flows are t/h where the domain is a plant, kg/s and below elsewh
   CHECK(mass_flow_text(1.0 / 3.6, 3.4) == "1 t/h (278 g/s)");
   CHECK(mass_flow_text(3e-6, 0.34) == "3 mg/s");
   CHECK(mass_flow_text(0.0, 3.4) == "0 kg/s");
+}
+
+TEST_CASE("a need of memory shall be told beside what is free, where that is less") {
+  CHECK(dust::base::shortage_text(4e9, 4e9).empty());
+  CHECK(dust::base::shortage_text(41.2e9, 20e9)
+            .starts_with(
+                "the run needs about 41.2 GB of memory, and 20 GB of this machine's are free"));
+  const auto free = dust::base::free_memory();
+  CHECK((!free || *free > 0.0));
 }

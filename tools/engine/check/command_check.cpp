@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/process/memory.hpp"
 #include "base/text.hpp"
 #include "check/check_summary.hpp"
 #include "check/setup_page.hpp"
@@ -64,6 +65,11 @@ void add_check(CLI::App& app, int&) {
     preflight::try_placing(result.setup, *registry, derived, begin);
     const auto survey = preflight::survey_bodies(result.setup, *registry);
     const auto learnt = preflight::LearntCosts().expect(result.setup.name, derived.cost);
+    const double memory = learnt.cost.memory_bytes;
+    const std::string shortage = base::shortage_text(memory, base::free_memory().value_or(memory));
+    if (!shortage.empty()) {
+      std::cerr << options.scenario.string() << ": warning: " << shortage << '\n';
+    }
     std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, result.dust,
                                                                    derived, survey, learnt);
     if (start && !arguments->as_json) {

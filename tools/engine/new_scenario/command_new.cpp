@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.hpp"
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 #include "commands.hpp"
 #include "new_scenario/new_scenario.hpp"
 #include "scenario/reader.hpp"

@@ -2,7 +2,7 @@
 #include "program/program.hpp"
 
 #include "about/version.hpp"
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 
 namespace dust::engine {
 

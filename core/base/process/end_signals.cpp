@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/end_signals.hpp"
+#include "base/process/end_signals.hpp"
 
 #include <array>
 #include <csignal>

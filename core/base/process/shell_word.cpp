@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/shell_word.hpp"
+#include "base/process/shell_word.hpp"
 
 namespace dust::base {
 
