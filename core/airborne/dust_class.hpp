@@ -5,8 +5,8 @@
 
 namespace dust::airborne {
 
-/// Stokes number up to which the drift by inertia is that of a short response time; from there on
-/// each of its components stays at this share of the gas's speed (docs/theory/dust.md, section 1).
+/// Stokes number tau |grad u| up to which the drift by inertia is that of a short response time;
+/// from there on it is that of dust of this Stokes number (docs/theory/dust.md, section 1).
 inline constexpr double k_largest_stokes_number = 0.2;
 
 /// The gas that dust hangs in.

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace dust::airborne {
 namespace {
@@ -42,14 +43,14 @@ DUST_KERNEL void clear_row(int n, const double* below, const double* above, cons
 }
 
 DUST_KERNEL void mean_row(int n, double share, const double* velocity, const double* clear,
-                          double* past) {
+                          double* has_past, double* past) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     // Among grains there is no past to tell from.
     const double towards = share + (1.0 - share) * (1.0 - clear[i]);
     const double on = past[i] + towards * (velocity[i] - past[i]);
-    const double now = past[i] != 0.0 ? on : velocity[i];
-    past[i] = clear[i] > 0.0 ? now : 0.0;
+    past[i] = has_past[i] > 0.0 ? on : velocity[i];
+    has_past[i] = clear[i] > 0.0 ? 1.0 : 0.0;
   }
 }
 
@@ -58,6 +59,13 @@ struct Across {
   std::ptrdiff_t stride = 0;
   double inverse_h = 0.0;            ///< 0: nothing varies
   const double* velocity = nullptr;  ///< on this direction's faces
+};
+
+/// The past of a row's faces.
+struct PastRow {
+  double rate = 0.0;                 ///< [1/s] of what its mean is behind: made up for in the step
+  const double* velocity = nullptr;  ///< [m/s] its mean
+  const double* is_known = nullptr;
 };
 
 /// Slope of v at i from the neighbours, as far as each is clear.
@@ -71,8 +79,8 @@ inline __attribute__((always_inline)) double slope(const double* v, const double
 }
 
 DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, const Across& f,
-                                  double rate, const double* past, const double* clear,
-                                  float* acceleration, float* speed) {
+                                  const PastRow& past, const double* clear, float* acceleration,
+                                  float* turn) {
   const double *v = own.velocity, *ve = e.velocity, *vf = f.velocity;
   const std::ptrdiff_t s = own.stride, se = e.stride, sf = f.stride;
 #pragma GCC ivdep
@@ -80,13 +88,14 @@ DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, con
     const double u = v[i];
     const double across_e = 0.25 * (ve[i] + ve[i - s] + ve[i + se] + ve[i + se - s]);
     const double across_f = 0.25 * (vf[i] + vf[i - s] + vf[i + sf] + vf[i + sf - s]);
-    const double carried = u * slope(v, clear, i, s, own.inverse_h) +
-                           across_e * slope(v, clear, i, se, e.inverse_h) +
-                           across_f * slope(v, clear, i, sf, f.inverse_h);
+    const double along = slope(v, clear, i, s, own.inverse_h);
+    const double aside_e = slope(v, clear, i, se, e.inverse_h);
+    const double aside_f = slope(v, clear, i, sf, f.inverse_h);
+    const double carried = u * along + across_e * aside_e + across_f * aside_f;
     // A face that a body or grains have just set free has no past: nothing there was sped up.
-    const double gained = past[i] != 0.0 ? u - past[i] : 0.0;
-    acceleration[i] = static_cast<float>(clear[i] * (gained * rate + carried));
-    speed[i] = static_cast<float>(std::sqrt(u * u + across_e * across_e + across_f * across_f));
+    const double gained = past.is_known[i] > 0.0 ? u - past.velocity[i] : 0.0;
+    acceleration[i] = static_cast<float>(clear[i] * (gained * past.rate + carried));
+    turn[i] = static_cast<float>(std::sqrt(along * along + aside_e * aside_e + aside_f * aside_f));
   }
 }
 
@@ -99,8 +108,8 @@ std::array<int, 3> faces(const fluid::Grid& grid, std::size_t d) {
 }  // namespace
 
 GasAcceleration::GasAcceleration(const fluid::Grid& grid, double memory)
-    : grid_(grid), velocity_(grid), past_(grid), clear_(grid), memory_(memory) {
-  for (auto* fields : {&acceleration_, &speed_}) {
+    : grid_(grid), velocity_(grid), past_(grid), has_past_(grid), clear_(grid), memory_(memory) {
+  for (auto* fields : {&acceleration_, &turn_}) {
     for (std::vector<float>& field : *fields) field.assign(grid.size, 0.0F);
   }
 }
@@ -181,9 +190,9 @@ void GasAcceleration::find_row(int dir, int j, int k, double rate) {
   };
   float* acceleration = acceleration_[d].data() + o;
   const int n = faces(grid_, d)[0];
-  acceleration_row(n, across(d), across((d + 1) % 3), across((d + 2) % 3), rate,
-                   past_.component[d].data() + o, clear_.component[d].data() + o, acceleration,
-                   speed_[d].data() + o);
+  const PastRow past{rate, past_.component[d].data() + o, has_past_.component[d].data() + o};
+  acceleration_row(n, across(d), across((d + 1) % 3), across((d + 2) % 3), past,
+                   clear_.component[d].data() + o, acceleration, turn_[d].data() + o);
   if (grid_.is_periodic[d]) return;
   const int place[3] = {0, j, k};
   if (d == 0) {
@@ -200,7 +209,7 @@ void GasAcceleration::go_towards_velocity(double share) {
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::size_t o = at(grid_.index(0, j, k));
       mean_row(n[0], share, &velocity_.component[d][o], &clear_.component[d][o],
-               &past_.component[d][o]);
+               &has_past_.component[d][o], &past_.component[d][o]);
     });
   }
 }
@@ -221,20 +230,26 @@ void GasAcceleration::find(const Flow& flow, double step) {
 
 void GasAcceleration::save(sdk::ArchiveWriter& archive) const {
   archive.integer("gas_is_first", is_first_ ? 1 : 0);
-  archive.numbers("gas_velocity_x", past_.component[0]);
-  archive.numbers("gas_velocity_y", past_.component[1]);
-  archive.numbers("gas_velocity_z", past_.component[2]);
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::string axis(1, "xyz"[d]);
+    archive.numbers("gas_velocity_" + axis, past_.component[d]);
+    archive.numbers("gas_has_past_" + axis, has_past_.component[d]);
+  }
 }
 
 void GasAcceleration::load(sdk::ArchiveReader& archive) {
   is_first_ = archive.integer("gas_is_first") != 0;
-  const std::array<const char*, 3> names{"gas_velocity_x", "gas_velocity_y", "gas_velocity_z"};
-  for (std::size_t d = 0; d < 3; ++d) {
-    auto values = archive.numbers(names[d]);
+  const auto take = [&](const std::string& name, std::vector<double>& field) {
+    auto values = archive.numbers(name);
     if (values.size() != grid_.size) {
       throw sdk::ModelError("the checkpoint's dust belongs to another grid");
     }
-    past_.component[d] = std::move(values);
+    field = std::move(values);
+  };
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::string axis(1, "xyz"[d]);
+    take("gas_velocity_" + axis, past_.component[d]);
+    take("gas_has_past_" + axis, has_past_.component[d]);
   }
 }
 

@@ -26,8 +26,8 @@ class GasAcceleration {
   void find(const Flow& flow, double step);
   /// [m/s2] on faces along d.
   [[nodiscard]] const std::vector<float>& field(std::size_t d) const { return acceleration_[d]; }
-  /// [m/s] of the gas at the same places.
-  [[nodiscard]] const std::vector<float>& speed(std::size_t d) const { return speed_[d]; }
+  /// [1/s] |grad u_d| at the same places: how fast what goes with the gas meets another u_d.
+  [[nodiscard]] const std::vector<float>& turn(std::size_t d) const { return turn_[d]; }
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
@@ -44,10 +44,11 @@ class GasAcceleration {
   fluid::Grid grid_;
   fluid::FaceField velocity_;  ///< [m/s] of the gas between the grains; 0: nothing passes
   fluid::FaceField past_;      ///< [m/s] its mean over the past
+  fluid::FaceField has_past_;  ///< 1 where that is known
   fluid::FaceField clear_;     ///< [-] how clear of grains a face is; 0: nothing passes
   double memory_;
   std::array<std::vector<float>, 3> acceleration_;
-  std::array<std::vector<float>, 3> speed_;
+  std::array<std::vector<float>, 3> turn_;
   bool is_first_ = true;
 };
 

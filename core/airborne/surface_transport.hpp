@@ -22,7 +22,6 @@ class SurfaceTransport {
   /// Over `step` [s]. Adds what leaves the domain, by class and surface [kg].
   void advance(const Flow& flow, double step, Layers& layers,
                std::vector<std::vector<double>>& carried_out);
-  [[nodiscard]] const SurfaceRoutes& routes() const { return routes_; }
 
  private:
   void find_rates(const Flow& flow);

@@ -68,15 +68,14 @@ DUST_KERNEL void drive_row(int n, double settling, const double* throughflow, co
 /// With the drift by inertia; docs/theory/dust.md, section 1.
 DUST_KERNEL void drive_with_inertia_row(int n, double settling, float time,
                                         const double* throughflow, const double* passage,
-                                        const float* acceleration, const float* speed,
-                                        double* drive, float* is_held) {
+                                        const float* acceleration, const float* turn, double* drive,
+                                        float* is_held) {
   constexpr auto k_share = static_cast<float>(k_largest_stokes_number);
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
-    const float drift = -time * acceleration[i];
-    const float largest = k_share * speed[i];
-    const float held = drift > largest ? largest : drift < -largest ? -largest : drift;
-    is_held[i] = held != drift ? 1.0F : 0.0F;
+    const float stokes = std::abs(time) * turn[i];
+    const float held = -time * acceleration[i] * (stokes > k_share ? k_share / stokes : 1.0F);
+    is_held[i] = stokes > k_share && acceleration[i] != 0.0F ? 1.0F : 0.0F;
     drive[i] = throughflow[i] + (settling + static_cast<double>(held)) * passage[i];
   }
 }
@@ -194,7 +193,7 @@ void Transport::find_drive(const Flow& flow, const DustClass& dust) {
       double* drive = &drive_.component[d][o];
       if (has_inertia) {
         drive_with_inertia_row(n[0], settling, static_cast<float>(dust.inertia_time), throughflow,
-                               passage, &inertia_.gas->field(d)[o], &inertia_.gas->speed(d)[o],
+                               passage, &inertia_.gas->field(d)[o], &inertia_.gas->turn(d)[o],
                                drive, &inertia_.is_held[o]);
       } else {
         drive_row(n[0], settling, throughflow, passage, drive);

@@ -92,8 +92,8 @@ DUST_KERNEL void mark_approaching(const Trajectories& given, const Images& image
     const Lanes xx = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
     const Lanes xv = x[0] * v[0] + x[1] * v[1] + x[2] * v[2];
     const Lanes vv = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    // Squares of the closest approach: now, at the horizon, or between; there times vv, so that
-    // nothing is divided.
+    // Squares of the closest approach: now, at the end of the lifetime, or between; there times vv,
+    // so that nothing is divided.
     const LaneMask is_near = xx < reach2;
     const LaneMask is_near_later = xx + lifetime * (2.0 * xv + lifetime * vv) < reach2;
     const LaneMask passes_between = (xv < 0.0) & (-xv < vv * lifetime);

@@ -8,14 +8,14 @@
 
 namespace dust::contact {
 
-/// Grains on straight courses, each to be found within its allowance of it.
+/// Grains that fly straight, each to be found within its skin of that line.
 struct Trajectories {
   const double* position = nullptr;  ///< rows: x, y, z, radius
   const double* velocity = nullptr;  ///< rows, k_motion_stride apart
   const double* skin = nullptr;      ///< [m] one per grain
 };
 
-/// What is looked for: who may come closer than touch + `range` [m] within `horizon` [s], and who
+/// What is looked for: who may come closer than touch + `range` [m] within `lifetime` [s], and who
 /// has overlapped for longer than `behind` [s].
 struct ContactPrediction {
   double range = 0.0;

@@ -52,7 +52,6 @@ class ForceModels {
   [[nodiscard]] const sdk::FluidForceParts& taken() const { return taken_; }
   /// Numbers per grain that ParticleStates holds.
   [[nodiscard]] std::size_t state_columns() const { return width_; }
-  [[nodiscard]] bool needs_pressure() const { return needs_.stresses; }
 
   /// Before the batches of a refresh: puts moving walls in place.
   void begin(const FluidState& fluid, double step, bool is_first);

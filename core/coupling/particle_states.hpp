@@ -42,10 +42,10 @@ struct SelfFlow {
   Groups kept{};  ///< [-] share of the flow that is left after a fluid step
   /// [s/kg] flow that a fluid step adds along each axis, per force on the grain
   std::array<Triple, self_disturbance::k_groups> gained{};
-  Triple released{};    ///< [N s] owed before begin_step(), which the fluid receives in this step
-  double spread = 0.0;  ///< [-] of its solids, by the SmoothKernel and not by the voidage rule
-  double excess = 0.0;  ///< [-] of its own solids and flow, over those of a lone grain
-  Triple solids{};      ///< [-] its own at the faces of each component
+  Triple released{};  ///< [N s] residual before begin_step(), which the fluid receives in this step
+  double spread = 0.0;       ///< [-] of its solids, by the SmoothKernel and not by the voidage rule
+  double excess = 0.0;       ///< [-] of its own solids and flow, over those of a lone grain
+  Triple solids{};           ///< [-] its own at the faces of each component
   double self_stress = 0.0;  ///< [-] force by the stress of its own drag, over that drag
 
   /// What its faces showed when it was last looked at since begin_step(), and where that was: they
@@ -77,7 +77,8 @@ struct SelfFlow {
   return eps + own.excess * solids_at(own, d, eps) * (1.0 / 3.0);
 }
 
-/// Impulse owed to the fluid [N s] for a grain that is gone, at the place where it was last [m].
+/// Residual impulse for the fluid [N s] of a grain that is gone, at the place where it was last
+/// [m].
 struct EscapedParticle {
   Triple place{};
   Triple deferred{};

@@ -47,7 +47,7 @@ void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now
 void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now,
                             std::span<const Triple> impulse, std::size_t first, std::size_t end) {
   MultiCellKernel wide(lattice_, rule_);
-  // Particles of one cell come one after another: what it is owed stays in the registers meanwhile.
+  // Particles of one cell come one after another: its residual stays in the registers meanwhile.
   std::ptrdiff_t cell = -1;
   Triple deferred{};
   const auto put_back = [&] {

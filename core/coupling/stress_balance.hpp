@@ -15,7 +15,7 @@ namespace dust::coupling {
 
 /// Force of the pressure and the viscous stress on the grains, on either side: the fluid leaves
 /// them (1 - eps) of it in every cell, as it is solved; they receive V_i of that where they are
-/// looked at. The difference is owed to the fluid; docs/theory/coupling.md, eq. (19).
+/// looked at. The fluid receives the difference later; docs/theory/coupling.md, eq. (19).
 class StressBalance {
  public:
   StressBalance(const Lattice& lattice, const sdk::VoidageRule& rule);

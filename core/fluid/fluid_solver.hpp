@@ -35,7 +35,7 @@ using Boundaries = std::array<const sdk::BoundaryCondition*, 6>;
 /// an eddy viscosity,
 ///   d(eps)/dt + div(eps u) = 0                     docs/theory/fluid.md, eq. (1), (2)
 ///   rho (du/dt + u . grad u) = -grad p + div tau - coefficient u + source  (Exchange).
-/// Bodies that move shove it away; bodies with an opening suck it in. Owns velocity and pressure.
+/// Bodies that move displace it; bodies with an opening suck it in. Owns velocity and pressure.
 /// Deterministic for any number of
 /// threads.
 class FluidSolver {

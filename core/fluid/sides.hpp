@@ -57,7 +57,7 @@ class Sides {
   [[nodiscard]] bool is_still(int direction) const {
     return is_idle_[direction] && !has_inflow_[direction] && !had_inflow_[direction];
   }
-  /// Is the kinetic energy of entering fluid paid by the pressure (total pressure)?
+  /// Does the kinetic energy of entering fluid come from the pressure (total pressure)?
   [[nodiscard]] bool is_total_pressure(int side) const {
     return kinds_.rules[side].pressure == sdk::SideRule::pressure;
   }

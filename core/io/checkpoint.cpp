@@ -71,14 +71,16 @@ class GroupReader final : public sdk::ArchiveReader {
     const std::string path = in_part(group_, name);
     if (!has_dataset(file_, path)) {
       throw sdk::ModelError("the checkpoint holds no '" + std::string(name) + "' of " + group_ +
-                            "; it was written by another version");
+                            ": save() did not write what load() asks for, or it was written by "
+                            "another version");
     }
     const Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, path);
     const Handle stored(H5Dget_type(dataset.get()), H5Tclose, path);
     if (H5Tget_class(stored.get()) != wanted) {
-      throw sdk::ModelError(
-          "'" + std::string(name) + "' of " + group_ +
-          " has another type in the checkpoint; it was written by another version");
+      throw sdk::ModelError("'" + std::string(name) + "' of " + group_ +
+                            " has another type in the checkpoint: save() wrote it as another than "
+                            "load() asks for, or "
+                            "it was written by another version");
     }
     std::vector<T> result(extents_of(file_, path).at(0));
     if (!result.empty()) read_array(file_, path, type, result.data());

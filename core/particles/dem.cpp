@@ -380,7 +380,7 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
                                 lifetimes.inner_lifetime,
                                 list.due == OuterList::Due::update,
                                 list.updated,
-                                counters.mends,
+                                counters.list_repairs,
                                 list.lifetime};
   archive.integers("state", state);
 }
@@ -393,7 +393,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   counters.rebuilds = state.at(11);
   counters.missed_contact_onsets = state.at(12);
   counters.free_flight_steps = state.at(13);
-  counters.mends = state.at(18);
+  counters.list_repairs = state.at(18);
   tuner.restore({state.at(3), state.at(4), state.at(14), state.at(15)});
   OuterList::Due due = OuterList::Due::nothing;
   if (state.at(16) != 0) due = OuterList::Due::update;

@@ -57,13 +57,13 @@ struct ClassStep {
   int partner = -1;            ///< material of what it meets in it
 };
 
-/// Counters of the DEM, for the summary and health checks.
+/// Counters of the DEM, for the summary and the audit.
 struct DemReport {
   std::int64_t steps = 0;           ///< coarse steps
   std::int64_t particle_steps = 0;  ///< sum over coarse steps of grains integrated
   std::int64_t fine_steps = 0;      ///< sub-steps of fine grains, summed over grains
   std::int64_t rebuilds = 0;
-  std::int64_t mends = 0;  ///< of the lists, for single grains off their course
+  std::int64_t list_repairs = 0;  ///< for single grains that left their predicted trajectory
   std::int64_t free_flight_steps =
       0;                         ///< of particle_steps, those made many at once in free flight
   double largest_overlap = 0.0;  ///< [-] overlap / smaller radius, since the start
@@ -87,8 +87,8 @@ struct ContactRecord {
 /// Discrete elements: rows in Morton order in fixed tiles, Verlet lists from a hierarchical grid,
 /// contact laws in batches, several rates. Deterministic for any number of threads.
 ///
-/// One coarse step is: neighbours() (does something only when a grain moved skin/2 or grains came
-/// or went), contact(), force(), integrate(). Each is parallel inside.
+/// One coarse step is: neighbours() (does something only when lists no longer hold or grains came
+/// or went), contact(), force(), integrate(), advance_fine(). Each is parallel inside.
 class Dem {
  public:
   /// `class_diameters`: all diameters that may come, ascending. `fluid_density` > 0 reduces gravity

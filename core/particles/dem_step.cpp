@@ -27,7 +27,7 @@ void Dem::Impl::update_pair_lists() {
   if (inner.life().is_over() || outer.is_rebuild_due()) synchronise();
   if (outer.is_update_due()) {
     if (outer.update(list_scene(), tuner)) {
-      ++counters.mends;
+      ++counters.list_repairs;
     } else {
       outer.require(OuterList::Due::rebuild);
     }
@@ -92,7 +92,7 @@ OuterList::Due Dem::Impl::look_at_outer_list(std::size_t begin, std::size_t end)
     if (tiling.is_coarse(static_cast<std::int32_t>(n))) {
       throw_particle_error(
           contact_scene(), inner, n,
-          "moved farther off its course than its skin allows between two checks",
+          "moved farther from its predicted trajectory than its skin allows between two checks",
           "speeds far above the expected one: give time.expected_speed or a smaller "
           "time.dem_step");
     }

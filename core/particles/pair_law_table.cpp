@@ -8,6 +8,8 @@
 
 namespace dust::particles {
 
+int PairLawTable::room() { return contact::k_max_history; }
+
 PairLawTable::PairLawTable(std::vector<PairLaws> laws, std::vector<std::string> material_names,
                            double largest_diameter, bool keeps_work, int account_columns)
     : laws_(std::move(laws)),

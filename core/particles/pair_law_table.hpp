@@ -38,6 +38,11 @@ struct PairLaws {
 /// The laws of all pairs of materials, by number.
 class PairLawTable {
  public:
+  /// Per contact, where its work is kept.
+  static constexpr int k_work_columns = 2;
+  /// How many numbers a contact has room for, of its laws and what is kept besides.
+  [[nodiscard]] static int room();
+
   /// `largest_diameter` [m] of the particles that may come. Kept per contact besides the numbers of
   /// the laws: its work, with `keeps_work`, and `account_columns` of the energy account.
   PairLawTable(std::vector<PairLaws> laws, std::vector<std::string> material_names,
@@ -61,8 +66,6 @@ class PairLawTable {
   [[nodiscard]] int account_column() const { return account_column_; }
 
  private:
-  static constexpr int k_work_columns = 2;
-
   std::size_t work_column_ = 0;
   int account_column_ = 0;
   std::vector<PairLaws> laws_;

@@ -4,9 +4,9 @@
 #include "base/text.hpp"
 #include "coupling/self_disturbance/disturbance_formulas.hpp"
 #include "fluid/grid.hpp"
+#include "preflight/air/driven_speed.hpp"
 #include "preflight/cost.hpp"
 #include "preflight/emissions.hpp"
-#include "preflight/flow_check.hpp"
 #include "preflight/particle_models.hpp"
 #include "preflight/places/fall.hpp"
 #include "resolved/marker_lattice.hpp"
@@ -197,6 +197,28 @@ bool is_self_disturbance_corrected(const Setup& setup, const Derived& derived, d
 
 particles::TimeSteps derive_steps(const Setup& setup, const registry::Registry& registry) {
   return derive_steps(setup, make_particle_models(setup, registry));
+}
+
+void check_step_count(const Setup& setup, const ParticleModels& models,
+                      scenario::Diagnostics& diagnostics) {
+  // At a million steps a second a fluid step would take a quarter of an hour.
+  constexpr double k_largest_count = 1e9;
+  if (models.class_diameters.empty() || setup.interactions.empty()) return;
+  const bool is_given = setup.time.dem_step > 0.0;
+  const double finest = is_given ? setup.time.dem_step : derive_steps(setup, models).finest_step();
+  if (!(setup.time.fluid_step > k_largest_count * finest)) return;
+  const std::string text = "a fluid step of " + short_number(setup.time.fluid_step) +
+                           " s would be more than 1e9 steps of grains of " + short_number(finest) +
+                           " s each, and not come to its end: ";
+  if (is_given) {
+    diagnostics.error(setup.time.dem_step_where,
+                      "time.dem_step: " + text + "leave dem_step out, or give a longer one");
+  } else {
+    diagnostics.error(setup.interactions.front().where,
+                      "interactions: " + text +
+                          "are young_modulus and density right, and the collision_time that the "
+                          "contact law tells?");
+  }
 }
 
 void check_fixed_step(const Setup& setup, const registry::Registry& registry,

@@ -4,6 +4,7 @@
 #include "particles/time_steps.hpp"
 #include "preflight/body_work.hpp"
 #include "preflight/emissions.hpp"
+#include "preflight/particle_models.hpp"
 #include "preflight/run_cost.hpp"
 #include "preflight/slope_drain.hpp"
 #include "preflight/stiffness/softness.hpp"
@@ -57,6 +58,10 @@ bool is_self_disturbance_corrected(const scenario::Setup& setup, const Derived& 
 
 /// The steps that a run will take.
 particles::TimeSteps derive_steps(const scenario::Setup& setup, const registry::Registry& registry);
+
+/// Refuses steps of grains so short that not even the first step of the fluid comes to its end.
+void check_step_count(const scenario::Setup& setup, const ParticleModels& models,
+                      scenario::Diagnostics& diagnostics);
 
 /// Is a fixed `time.dem_step` too long for the grains that take it? A warning above the stable
 /// step, an error where a collision would not be seen or the grains would fly apart.

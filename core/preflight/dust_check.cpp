@@ -251,9 +251,8 @@ void check_drift(const Setup& setup, const DustSetup& dust, double air_speed,
             base::length_text(diameter, 3) + " follows the fluid round turns wider than " +
             base::length_text(turn, 2) + " only, and cells of " +
             base::length_text(resolved / k_turn_cells, 2) +
-            " resolve narrower ones: there its drift by inertia is held to a fifth of the "
-            "fluid's speed, and none of it hits walls by it; leave the class out, or let it be "
-            "grains");
+            " resolve narrower ones: there it drifts by inertia as finer dust does, and none of it "
+            "hits walls by it; leave the class out, or let it be grains");
   }
 }
 

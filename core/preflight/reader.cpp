@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/reader.hpp"
 
+#include "preflight/air/driven_speed.hpp"
+#include "preflight/air/flow_check.hpp"
+#include "preflight/air/wall_shear_check.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/dust_check.hpp"
 #include "preflight/emissions.hpp"
-#include "preflight/flow_check.hpp"
+#include "preflight/history_check.hpp"
 #include "preflight/places/belt_check.hpp"
 #include "preflight/places/body_places.hpp"
 #include "preflight/places/periodic_check.hpp"
@@ -59,6 +62,8 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_belts(read.setup, models, diagnostics);
   check_feeds_on_belts(read.setup, models, first, diagnostics);
   check_reach(read.setup, models, diagnostics);
+  check_histories(read.setup, read.dust, models, diagnostics);
+  check_step_count(read.setup, models, diagnostics);
   check_cohesion(read.setup, models, registry, diagnostics);
   check_softness(read.setup, models, registry, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);

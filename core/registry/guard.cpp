@@ -106,6 +106,9 @@ class Contact final : public PairLaw<sdk::ContactLaw> {
  public:
   using PairLaw::PairLaw;
   void evaluate(const sdk::ContactBatch& b) const override {
+    for (double* column : {b.normal_force, b.force.x, b.force.y, b.force.z}) {
+      GuardReport::set_unwritten(b.count, column);
+    }
     ask("evaluate", "a force for every contact of the batch", &sdk::ContactLaw::evaluate, b);
     const GuardReport::Inputs seen = {{"overlap", b.overlap},
                                       {"effective_radius", b.effective_radius},
@@ -197,6 +200,7 @@ class Drag final : public Guarded<sdk::DragLaw> {
  public:
   using Guarded::Guarded;
   void evaluate(const sdk::DragBatch& b) const override {
+    GuardReport::set_unwritten(b.count, b.factor);
     ask("evaluate", "a factor for every grain of the batch", &sdk::DragLaw::evaluate, b);
     faults().check(b.count, "factor", b.factor,
                    {{"reynolds", b.reynolds},
@@ -327,6 +331,7 @@ class Turbulence final : public Guarded<sdk::TurbulenceModel> {
  public:
   using Guarded::Guarded;
   void evaluate(const sdk::TurbulenceBatch& b) const override {
+    GuardReport::set_unwritten(b.count, b.eddy_viscosity);
     ask("evaluate", "an eddy viscosity for every cell of the batch",
         &sdk::TurbulenceModel::evaluate, b);
     faults().check(b.count, "eddy_viscosity", b.eddy_viscosity,
@@ -344,6 +349,7 @@ class Liberation final : public Guarded<sdk::LiberationLaw> {
         dust);
   }
   void in_contacts(const sdk::GrainImpacts& b) const override {
+    set_unwritten(b.grains);
     ask("in_contacts", "what comes off each grain of the batch", &sdk::LiberationLaw::in_contacts,
         b);
     check(b.grains, {{"normal_energy", b.normal_energy},
@@ -351,6 +357,7 @@ class Liberation final : public Guarded<sdk::LiberationLaw> {
                      {"acceleration", b.acceleration}});
   }
   void in_wind(const sdk::GrainWind& b) const override {
+    set_unwritten(b.grains);
     ask("in_wind", "what comes off each grain of the batch", &sdk::LiberationLaw::in_wind, b);
     check(b.grains, {{"slip", b.slip}, {"shear", b.shear}, {"void_fraction", b.void_fraction}});
   }
@@ -362,6 +369,11 @@ class Liberation final : public Guarded<sdk::LiberationLaw> {
   }
 
  private:
+  static void set_unwritten(const sdk::DustyGrains& g) {
+    for (std::size_t k = 0; k < g.classes; ++k) {
+      GuardReport::set_unwritten(g.count, g.released + k * g.stride);
+    }
+  }
   void check(const sdk::DustyGrains& g, GuardReport::Inputs seen) const {
     for (std::size_t k = 0; k < g.classes; ++k) {
       faults().check(g.count, "released", g.released + k * g.stride, seen);
@@ -402,10 +414,29 @@ class Emitter final : public Guarded<sdk::Emitter> {
     return not_negative("largest_speed", &sdk::Emitter::largest_speed);
   }
   [[nodiscard]] sdk::EmitterRequest request() const override {
-    return get("request", &sdk::Emitter::request);
+    const sdk::EmitterRequest r = get("request", &sdk::Emitter::request);
+    const std::pair<const char*, double> amounts[] = {
+        {"request (mass_flow)", r.mass_flow},
+        {"request (mass)", r.mass},
+        {"request (count)", static_cast<double>(r.count)}};
+    for (const auto& [name, value] : amounts) {
+      if (base::is_finite(value) && value >= 0.0) continue;
+      faults().refuse_answer(name, value, "a finite number from 0 on");
+    }
+    // A stream may go on for ever.
+    if (!base::is_finite(r.begin)) {
+      faults().refuse_answer("request (begin)", r.begin, "a time");
+    }
+    if (r.end != r.end) faults().refuse_answer("request (end)", r.end, "a time, or infinity");
+    return r;
   }
   [[nodiscard]] sdk::InsertionRule insertion_rule() const override {
-    return get("insertion_rule", &sdk::Emitter::insertion_rule);
+    const sdk::InsertionRule rule = get("insertion_rule", &sdk::Emitter::insertion_rule);
+    if (!(base::is_finite(rule.allowed_overlap) && rule.allowed_overlap >= 0.0)) {
+      faults().refuse_answer("insertion_rule (allowed_overlap)", rule.allowed_overlap,
+                             "a finite number from 0 on");
+    }
+    return rule;
   }
   [[nodiscard]] std::vector<std::string> materials() const override {
     return get("materials", &sdk::Emitter::materials);
@@ -459,6 +490,9 @@ class Motion final : public Guarded<sdk::Motion> {
  public:
   using Guarded::Guarded;
   void surface_velocity(const sdk::SurfaceBatch& b) const override {
+    for (double* column : {b.velocity.x, b.velocity.y, b.velocity.z}) {
+      GuardReport::set_unwritten(b.count, column);
+    }
     ask("surface_velocity", "a velocity for every point of the batch",
         &sdk::Motion::surface_velocity, b);
     const GuardReport::Inputs seen = {
@@ -509,6 +543,9 @@ class Sensor : public Guarded<sdk::Sensor> {
   }
   [[nodiscard]] bool wants_fluid() const override {
     return get("wants_fluid", &sdk::Sensor::wants_fluid);
+  }
+  [[nodiscard]] sdk::SurfacesWanted wanted_surfaces() const override {
+    return get("wanted_surfaces", &sdk::Sensor::wanted_surfaces);
   }
   void series(sdk::FigureSink& sink) const override {
     CheckedFigures checked(sink);

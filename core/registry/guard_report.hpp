@@ -6,8 +6,10 @@
 #include "registry/crash_notice.hpp"
 #include "registry/registry.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -55,6 +57,10 @@ class GuardReport {
     }
   }
 
+  /// Before a batch: what the model leaves unwritten shall not look like an answer.
+  static void set_unwritten(std::size_t count, double* column) {
+    if (column != nullptr) std::fill_n(column, count, std::numeric_limits<double>::quiet_NaN());
+  }
   /// Refuses the first number of a column that is none.
   void check(std::size_t count, const char* name, const double* column, Inputs seen) const {
     if (column == nullptr) return;

@@ -2,13 +2,18 @@
 #include "registry/library.hpp"
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "registry/crash_notice.hpp"
 
 #include <boost/dll/shared_library.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <set>
+#include <utility>
+#include <variant>
 
 namespace dust::registry {
 namespace {
@@ -117,6 +122,34 @@ std::set<std::string> taken_keys(const std::string& kind) {
 
 }  // namespace
 
+/// What a declaration says against itself.
+void add_contradictions(const sdk::Parameter& p, const std::string& parameter,
+                        std::vector<std::string>& problems) {
+  for (const auto& [range, name] :
+       {std::pair{&p.range, "range"}, std::pair{&p.usual, "usual range"}}) {
+    if (std::isnan(range->low) || std::isnan(range->high) || range->low > range->high) {
+      problems.push_back(parameter + ": its " + name + ", from " +
+                         base::digits_text(range->low, 6) + " to " +
+                         base::digits_text(range->high, 6) + ", holds no number");
+    }
+  }
+  if (p.is_required) return;
+  const auto refuse_number = [&](double value) {
+    if (p.range.contains(value)) return;
+    problems.push_back(parameter + ": its default, " + base::digits_text(value, 6) +
+                       ", lies outside its own range");
+  };
+  if (const auto* number = std::get_if<double>(&p.default_value)) refuse_number(*number);
+  if (const auto* whole = std::get_if<std::int64_t>(&p.default_value)) {
+    refuse_number(static_cast<double>(*whole));
+  }
+  const auto* text = std::get_if<std::string>(&p.default_value);
+  if (text != nullptr && !p.options.empty() &&
+      std::find(p.options.begin(), p.options.end(), *text) == p.options.end()) {
+    problems.push_back(parameter + ": its default, '" + *text + "', is none of its options");
+  }
+}
+
 std::vector<std::string> description_problems(const sdk::ModelInfo& info) {
   std::vector<std::string> problems;
   const std::string model = info.kind + "/" + info.name;
@@ -132,6 +165,7 @@ std::vector<std::string> description_problems(const sdk::ModelInfo& info) {
     if (!is_snake_case(p.name)) problems.push_back(parameter + " is not snake_case");
     if (p.sentence.empty()) problems.push_back(parameter + " has no sentence that explains it");
     if (!seen.insert(p.name).second) problems.push_back(parameter + " is declared twice");
+    add_contradictions(p, parameter, problems);
     if (taken.contains(p.name)) {
       problems.push_back(parameter + " could never be given: the scenario has a key '" + p.name +
                          "' of its own beside it; choose another name");

@@ -140,8 +140,11 @@ std::vector<fs::path> Registry::search_path(const std::vector<fs::path>& from_co
 void Registry::add(Entry entry) {
   const auto at = std::lower_bound(impl_->entries.begin(), impl_->entries.end(), entry, is_before);
   if (at != impl_->entries.end() && !is_before(entry, *at)) {
-    throw base::PluginError(file_text(entry.file) + ": error: offers " + entry.info.kind + "/" +
-                            entry.info.name + ", which " + file_text(at->file) +
+    // The engine's own is not the one to change.
+    const Entry& other = entry.is_shipped && !at->is_shipped ? *at : entry;
+    const Entry& kept = &other == &entry ? *at : entry;
+    throw base::PluginError(file_text(other.file) + ": error: offers " + entry.info.kind + "/" +
+                            entry.info.name + ", which " + file_text(kept.file) +
                             " offers already: remove or rename one");
   }
   impl_->entries.insert(at, std::move(entry));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace dust::run {
 
@@ -12,12 +13,12 @@ class DemCycle {
   /// [s]
   DemCycle(double fluid_step, double dem_step)
       : dem_step_(dem_step),
-        steps_(std::max(1, static_cast<int>(std::lround(fluid_step / dem_step)))) {}
+        steps_(std::max<std::int64_t>(1, std::llround(fluid_step / dem_step))) {}
 
   /// Before the first step: every how many the drag is due, from the interval [s] asked for.
   void begin(double refresh_interval) {
     steps_per_refresh_ =
-        std::max(1, static_cast<int>(std::floor(refresh_interval / dem_step_ + 1e-6)));
+        std::max<std::int64_t>(1, std::llround(std::floor(refresh_interval / dem_step_ + 1e-6)));
     begin();
   }
   /// The same as often as before.
@@ -27,18 +28,18 @@ class DemCycle {
   [[nodiscard]] bool is_done() const { return step_ >= steps_; }
   [[nodiscard]] bool is_last_step() const { return step_ + 1 == steps_; }
   /// [s] since the beginning of the fluid step
-  [[nodiscard]] double time() const { return step_ * dem_step_; }
+  [[nodiscard]] double time() const { return static_cast<double>(step_) * dem_step_; }
   [[nodiscard]] bool is_refresh_due() const { return step_ % steps_per_refresh_ == 0; }
   /// [s] that a refresh now holds for
   [[nodiscard]] double refresh_held() const {
-    return std::min(steps_per_refresh_, steps_ - step_) * dem_step_;
+    return static_cast<double>(std::min(steps_per_refresh_, steps_ - step_)) * dem_step_;
   }
 
  private:
   double dem_step_;
-  int steps_;
-  int steps_per_refresh_ = 1;
-  int step_ = 0;
+  std::int64_t steps_;
+  std::int64_t steps_per_refresh_ = 1;
+  std::int64_t step_ = 0;
 };
 
 }  // namespace dust::run

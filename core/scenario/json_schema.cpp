@@ -284,6 +284,13 @@ Json domain_schema() {
   return {{"side", side}, {"domain", domain}};
 }
 
+/// null takes away what is given below.
+Json or_null(Json one) {
+  Json either = {{"anyOf", Json::array({one, {{"type", "null"}}})}};
+  if (one.contains("description")) either["description"] = one["description"];
+  return either;
+}
+
 /// A file that is laid over what it includes: every key may be missing, a model's name too. Lists
 /// are replaced as a whole and stay as they are, but for the pairs of `interactions`.
 Json addition(const Json& full, const Json& definitions) {
@@ -296,11 +303,11 @@ Json addition(const Json& full, const Json& definitions) {
   part.erase("required");
   if (full.contains("properties")) {
     for (const auto& [key, value] : full["properties"].items()) {
-      part["properties"][key] = addition(value, definitions);
+      part["properties"][key] = or_null(addition(value, definitions));
     }
   }
   if (full.contains("additionalProperties") && full["additionalProperties"].is_object()) {
-    part["additionalProperties"] = addition(full["additionalProperties"], definitions);
+    part["additionalProperties"] = or_null(addition(full["additionalProperties"], definitions));
   }
   if (full.contains("anyOf")) {
     part["anyOf"] = Json::array();
@@ -417,7 +424,8 @@ std::string json_schema(const registry::Registry& registry) {
   definitions["addition"] = addition(root, definitions);
   Json more_of_pair = addition(interaction, definitions);
   more_of_pair["required"] = {"between"};
-  definitions["addition"]["properties"]["interactions"]["items"] = more_of_pair;
+  definitions["addition"]["properties"]["interactions"] =
+      or_null({{"type", "array"}, {"items", more_of_pair}});
 
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", "Scenario of the dust engine"},

@@ -2,7 +2,7 @@
 #include "study/dust_quantities.hpp"
 
 #include "dust/sdk/liberation_law.hpp"
-#include "preflight/flow_check.hpp"
+#include "preflight/air/air_passage.hpp"
 #include "run/dust/dust_stage.hpp"
 #include "run/dust/hoods.hpp"
 #include "setup/draws_out.hpp"

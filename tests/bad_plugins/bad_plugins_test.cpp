@@ -113,6 +113,13 @@ TEST_CASE("every fault of a description shall be told") {
             start + "the name 'Camel' is not snake_case", start + "drag/Camel has no summary",
             start + "drag/Camel: the parameter 'WrongName' is not snake_case",
             start + "drag/Camel: the parameter 'silent' has no sentence that explains it",
+            start + "drag/Camel: the parameter 'none': its range, from 3 to 1, holds no number",
+            start + "drag/Camel: the parameter 'outside': its default, 0, lies outside its own "
+                    "range",
+            start + "drag/Camel: the parameter 'unusual': its usual range, from 10 to 1, holds no "
+                    "number",
+            start + "drag/Camel: the parameter 'kind': its default, 'other', is none of its "
+                    "options",
             start + "motion/mover: the parameter 'material' could never be given: the scenario has "
                     "a key 'material' of its own beside it; choose another name",
             start + "motion/mover: the parameter 'radius' is declared twice"});

@@ -63,12 +63,13 @@ void measure(const char* name, Dem& dem, int warm_up, int steps, int repeats) {
   std::printf(
       "%-12s %8.0f grains  dt %.2e s  %6.1f M grain-steps/s  (neighbours %4.1f %%, tiles %4.1f "
       "%%, "
-      "fine level %4.1f %%)  rebuilds %.4f, mends %.4f/step  contacts %lld  fine sub-steps/step "
+      "fine level %4.1f %%)  rebuilds %.4f, list repairs %.4f/step  contacts %lld  fine "
+      "sub-steps/step "
       "%.0f\n",
       name, count, dem.coarse_step(), 1e-6 * count * steps / best[0], 100 * best[1] / best[0],
       100 * best[2] / best[0], 100 * best[3] / best[0],
       static_cast<double>(after.rebuilds - before.rebuilds) / (steps * repeats),
-      static_cast<double>(after.mends - before.mends) / (steps * repeats),
+      static_cast<double>(after.list_repairs - before.list_repairs) / (steps * repeats),
       static_cast<long long>(after.contacts),
       static_cast<double>(after.fine_steps - before.fine_steps) / (steps * repeats));
 }

@@ -166,11 +166,15 @@ class Spread(tree_of_files.Tree):
 
 class TestNames(tree_of_files.Tree):
     def test_both_ways_round(self):
-        self.write("tests/a.cpp", "TEST_CASE(\"a\") {}\n")
+        self.write("tests/a.cpp", "TEST_CASE(\"a shall b\") {}\n")
         self.write("tests/b_test.cpp", "int main() {}\n")
-        self.write("tests/c_test.cpp", "  TEST_CASE_TEMPLATE(\"c\", T, int) {}\n")
+        self.write("tests/c_test.cpp", "  TEST_CASE_TEMPLATE(\"c \"\n  \"shall d\", T, int) {}\n")
         self.write("tests/d.cpp", "int helper();\n")
         self.assertEqual(set(test_names_gate.findings(self.root)), {"tests/a.cpp", "tests/b_test.cpp"})
+
+    def test_a_name_that_does_not_say_what_shall_be_is_found(self):
+        self.write("tests/a_test.cpp", "TEST_CASE(\"a does b\") {}\nTEST_CASE(\"a shall b\") {}\n")
+        self.assertEqual(set(test_names_gate.findings(self.root)), {"tests/a_test.cpp: a does b"})
 
 
 class Format(tree_of_files.Tree):

@@ -14,6 +14,9 @@
 namespace dust::contract {
 namespace {
 
+/// Of collision_time: a law that tells it ten times too short is not one whose grains stick.
+constexpr int k_longest = 100;
+
 using sdk::Vec3;
 
 std::unique_ptr<sdk::ContactLaw> make_law(const Maker& make, const Units& units = {},
@@ -132,7 +135,7 @@ Impact run_impact(const sdk::ContactLaw& law, double speed, double tangential, d
   double overlap = -start * step * speed;
   Impact result;
   int n = 0;
-  for (; n < 10 * steps; ++n) {
+  for (; n < k_longest * steps; ++n) {
     overlap -= step * velocity.x;
     if (overlap < -law.range() && n > 0) break;
     result.largest_overlap = std::max(result.largest_overlap, overlap);
@@ -166,7 +169,7 @@ Impact run_impact(const sdk::ContactLaw& law, double speed, double tangential, d
     velocity_now = velocity + 0.5 * kick;
     rotation_now = rotation + 0.5 * spin;
   }
-  result.has_ended = n < 10 * steps;
+  result.has_ended = n < k_longest * steps;
   result.normal_speed = velocity.x;
   result.duration = n * step;
   const double along = mass * velocity.y * velocity.y + inertia * rotation * rotation;

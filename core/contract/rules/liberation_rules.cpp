@@ -226,6 +226,24 @@ void check_steps(const Maker& make) {
   }
 }
 
+/// A law that answers to the wind and does not say so is never asked.
+void check_wind_is_asked(const Maker& make) {
+  const auto law = make_as<sdk::LiberationLaw>(make);
+  if (law->needs_wind()) return;
+  Bench b = make_bench({});
+  prepare(*law, b);
+  law->in_wind({.grains = grains_of(b, 0, k_rows, b.in_wind),
+                .slip = b.wind.slip.data(),
+                .shear = b.wind.shear.data(),
+                .void_fraction = b.wind.void_fraction.data()});
+  const bool has_answer = std::any_of(b.in_wind.begin(), b.in_wind.end(), [](double mass) {
+    return mass > 0.0 && mass != k_no_answer;
+  });
+  require(!has_answer,
+          "it sets dust free in wind and needs_wind() says that it does not: it is never asked for "
+          "that; give needs_wind() as well");
+}
+
 void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
   runner.rule("sets free no more than there is, and nothing negative",
               [&] { check_amounts(asked(make, {})); });
@@ -237,6 +255,7 @@ void rules(const Maker& make, const ModelUnderTest&, RuleRunner& runner) {
     check_moisture(asked(make, {}), make_as<sdk::LiberationLaw>(make)->uses_moisture());
   });
   runner.rule("sets the same free in one impact as in its two halves", [&] { check_steps(make); });
+  runner.rule("is asked for all that it answers", [&] { check_wind_is_asked(make); });
   runner.rule("sets something free", [&] {
     const Bench bench = asked(make, {});
     const double sum =

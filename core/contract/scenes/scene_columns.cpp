@@ -7,13 +7,13 @@
 
 namespace dust::contract {
 
-SceneColumns::SceneColumns(const SyntheticScene& scene, bool wants_face_fluxes) {
+SceneColumns::SceneColumns(const SyntheticScene& scene, const sdk::Sensor& sensor) {
   show_domain(scene);
   show_particles(scene);
-  show_contacts(scene);
-  show_walls(scene);
+  if (sensor.wants_contacts()) show_contacts(scene);
+  if (sensor.wants_walls()) show_walls(scene);
   show_fluid(scene);
-  if (wants_face_fluxes && !scene.pressure.empty()) show_faces(scene);
+  if (sensor.wants_face_fluxes() && !scene.pressure.empty()) show_faces(scene);
 }
 
 void SceneColumns::show_domain(const SyntheticScene& scene) {

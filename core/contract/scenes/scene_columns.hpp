@@ -9,10 +9,10 @@
 
 namespace dust::contract {
 
-/// A scene's columns as a sensor sees them, in the scene's units.
+/// A scene's columns as a sensor sees them, in the scene's units: no more than a run shows it.
 class SceneColumns {
  public:
-  explicit SceneColumns(const SyntheticScene& scene, bool wants_face_fluxes = false);
+  SceneColumns(const SyntheticScene& scene, const sdk::Sensor& sensor);
   SceneColumns(const SceneColumns&) = delete;  // the view points into the columns
   SceneColumns& operator=(const SceneColumns&) = delete;
   ~SceneColumns() = default;

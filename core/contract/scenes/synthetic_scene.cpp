@@ -45,7 +45,7 @@ void set_cells(SyntheticScene& scene, int nx, int ny, int nz) {
 }
 
 void begin(sdk::Sensor& sensor, const SyntheticScene& scene) {
-  const SceneColumns columns(scene, sensor.wants_face_fluxes());
+  const SceneColumns columns(scene, sensor);
   sdk::WorldView world = columns.view();
   world.interval = 0.0;
   sensor.begin(world);
@@ -53,7 +53,7 @@ void begin(sdk::Sensor& sensor, const SyntheticScene& scene) {
 
 void step(sdk::Sensor& sensor, SyntheticScene& scene) {
   scene.time += scene.interval;
-  SceneColumns columns(scene, sensor.wants_face_fluxes());
+  SceneColumns columns(scene, sensor);
   sensor.observe(columns.view());
   show_dust(sensor, scene, columns.view());
 }

@@ -14,10 +14,10 @@ namespace {
 /// Weight of open faces below which a force component finds no fluid to act on.
 constexpr double k_min_weight = 1e-6;
 
-/// Part of what is owed to a cell that is paid at once. The pressure answers it, and with that what
-/// is owed next: all at once would rock a bed in which the fluid is the smaller part.
+/// Part of a cell's residual that the fluid receives in one step. The pressure answers it, and with
+/// that the next residual: all at once would rock a bed in which the fluid is the smaller part.
 constexpr double k_released_share = 0.5;
-/// [N s] Less than this is paid off.
+/// [N s] A residual smaller than this is dropped.
 constexpr double k_nothing_deferred = 1e-60;
 
 /// Sums over the eight faces of a grain.
@@ -269,7 +269,7 @@ void DragExchange::scatter_component(int d, const FaceStencils& stencils,
   }
 }
 
-/// The debts of grains that are gone; returns how many find no open face.
+/// The residuals of grains that are gone; returns how many find no open face.
 std::int64_t DragExchange::release_escaped(int d, ParticleStates& memory, double step) {
   const double volume = lattice_.cell_volume();
   std::int64_t unpaired = 0;
@@ -289,7 +289,8 @@ std::int64_t DragExchange::release_escaped(int d, ParticleStates& memory, double
   return unpaired;
 }
 
-/// Debts of cells: to either face along the component the half, all to one if the other is closed.
+/// Residuals of cells: to either face along the component the half, all to one if the other is
+/// closed.
 void DragExchange::release_cells(int d, std::vector<double>& per_cell, double step) {
   const FaceColumns columns = face_void_.columns(d);
   const fluid::Grid& grid = lattice_.grid();

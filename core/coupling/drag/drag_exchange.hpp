@@ -22,7 +22,7 @@ class StressBalance;
 /// Coefficient and source of each face from the grains around it. A grain with drag coefficient K,
 /// velocity v and weight W adds, at face f of component d with trilinear weight w_f,
 ///   coefficient += W w_f K eps_f / (a eps_c^2 V)
-///   source      += W w_f K eps_f v / (a eps_c^2 V) + w_f owed / (e V step)
+///   source      += W w_f K eps_f v / (a eps_c^2 V) + w_f residual / (e V step)
 /// and for the tangent of the drag K (1 + b) in place of K, and source += W w_f K b s_0 / (a eps_c
 /// V). a = sum(w open), e = sum(w open eps) over its eight faces, eps_c the void fraction of its
 /// cell, V the cell volume. Grains larger than a cell act through all faces of the cells they are
@@ -37,8 +37,8 @@ class DragExchange {
 
   /// Makes room for as many batches.
   void resize(std::size_t batches);
-  /// What each particle of a batch gives its faces, from the sums over these. Residuals are paid
-  /// thereby.
+  /// What each particle of a batch gives its faces, from the sums over these. Residuals reach
+  /// the fluid thereby.
   void assemble(const particles::GrainRows& grains, const FaceStencils& stencils, std::size_t batch,
                 const LinearisedDrag& drag, ParticleStates& states, const fluid::CellField& eps,
                 double step);

@@ -66,7 +66,8 @@ struct CutFace {
 };
 
 /// A face inside a body: u = wall - factor (u(image) - wall), image = its mirror point in the
-/// fluid. Or a face between cells that a thin body keeps apart: u = what the body shoves through.
+/// fluid. Or a face between cells that a thin body keeps apart: u = what the body displaces through
+/// it.
 struct GhostFace {
   std::int32_t at = 0;
   std::int32_t wall_point = 0;
@@ -146,7 +147,7 @@ struct Geometry {
   std::array<std::vector<GhostFace>, 3> ghost;
   std::array<std::size_t, 3> deep_ghosts_begin{};  ///< from here on they mirror nothing
   std::array<std::vector<OpenPart>, 3> open_part;
-  /// No fluid passes, whatever part of the face is open, but a body that moves shoves fluid
+  /// No fluid passes, whatever part of the face is open, but a body that moves displaces fluid
   /// through.
   std::vector<BlockedFace> blocked;
   std::array<std::vector<SkewFace>, 3> skew;            ///< in the order of rows

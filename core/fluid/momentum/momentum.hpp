@@ -45,8 +45,6 @@ class Momentum {
   void prepare(double implicit, const FaceField& coefficient, bool has_drag);
   /// Solves the prepared system for `u` (start values in, halos filled for sweeps).
   void solve(const FaceField& right, FaceField& u);
-  /// Sweeps of the last prepared system.
-  [[nodiscard]] int sweeps() const { return sweeps_; }
 
   /// out = viscosity laplace(u) [N/m3] at unknown faces, 0 elsewhere; halos filled for velocity.
   void viscous_force(const FaceField& u, FaceField& out) const;

@@ -8,7 +8,9 @@
 
 namespace dust::particles {
 
-/// Numbers per particle in rows of forces: force [N] and torque [N m], each with an unused fourth.
+/// Numbers per particle in rows of forces: force [N] and torque [N m], each with a fourth. Where
+/// dust or an account asks for it, these hold what contacts dissipate at the particle, normal and
+/// tangential [J], until TileStep::take_work(); they are zero where particles move.
 inline constexpr std::size_t k_force_row = 8;
 
 /// Forces on a tile's particles and, behind them, on its ghosts, while the tile is evaluated: in
@@ -22,7 +24,7 @@ class ForceBuffer {
   ForceBuffer(const ForceBuffer&) = delete;
   ForceBuffer& operator=(const ForceBuffer&) = delete;
 
-  /// Rows of eight numbers: the tile's particles, then its ghosts.
+  /// Rows of k_force_row numbers: the tile's particles, then its ghosts.
   [[nodiscard]] double* rows() { return rows_.data(); }
   [[nodiscard]] std::span<double> own() { return rows_.first(own_); }
   [[nodiscard]] std::span<double> ghosts() { return rows_.subspan(own_); }

@@ -4,6 +4,7 @@
 #include "base/digest.hpp"
 #include "contact/aligned.hpp"
 #include "contact/batch_kernels.hpp"
+#include "particles/forces/force_buffer.hpp"
 #include "particles/store/tile.hpp"
 
 #include <cstddef>
@@ -43,12 +44,12 @@ class GhostExchange {
   [[nodiscard]] bool has_all(std::int32_t tile) const;
 
   /// Calls `add`(row, force) for each force on a tile's particle from outside, by row, then by
-  /// tile: eight numbers.
+  /// tile: k_force_row numbers.
   template <class Add>
   void for_each_contribution(std::int32_t tile, Add&& add) const {
     for (const Contribution& c : tiles_[static_cast<std::size_t>(tile)].contributions) {
       add(c.row, tiles_[static_cast<std::size_t>(c.tile)].force.data() +
-                     8 * static_cast<std::size_t>(c.ghost));
+                     k_force_row * static_cast<std::size_t>(c.ghost));
     }
   }
 

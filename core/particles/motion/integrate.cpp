@@ -3,6 +3,7 @@
 
 #include "base/lanes.hpp"
 #include "dust/sdk/plugin.hpp"
+#include "particles/forces/force_buffer.hpp"
 #include "particles/motion/leapfrog.hpp"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ __attribute__((always_inline)) inline void integrate(const SteppingRows& given, 
     const std::size_t end = s.first + s.count;
     for (std::size_t n = s.first; n < end; ++n) {
       expect<has_fluid>(s.rows, std::min(n + k_ahead, end - 1));
-      step_row<has_fluid>(s.rows, step, n, s.force + 8 * (n - s.first));
+      step_row<has_fluid>(s.rows, step, n, s.force + k_force_row * (n - s.first));
     }
     return;
   }
@@ -122,7 +123,8 @@ __attribute__((always_inline)) inline void integrate(const SteppingRows& given, 
     const auto n = static_cast<std::size_t>(s.particles[k]);
     expect<has_fluid>(s.rows,
                       static_cast<std::size_t>(s.particles[std::min(k + k_ahead, s.count - 1)]));
-    step_row<has_fluid>(s.rows, step, n, s.force + 8 * (s.by_row * (n - s.first) + s.by_order * k));
+    step_row<has_fluid>(s.rows, step, n,
+                        s.force + k_force_row * (s.by_row * (n - s.first) + s.by_order * k));
   }
 }
 

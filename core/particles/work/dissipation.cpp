@@ -14,25 +14,57 @@ namespace {
 using contact::BatchColumns;
 using B = BatchColumns;
 
-/// Adds what the contacts have done to their sides in a step.
-DUST_KERNEL void add_work(BatchColumns& columns, std::size_t count, double step, double* normal,
-                          double* tangential) {
+/// Of the work of a step at the power of now, how much has been done by now. While a contact loads,
+/// half of it: with all of it the work would run ahead of what is stored, and what is handed out
+/// does not come back. While it unloads nothing is handed out too early, and what the last step of
+/// a contact costs is not left over.
+enum class Part { done, ahead };
+template <Part part>
+inline __attribute__((always_inline)) double share_of(double loading) {
+  const double done = loading < 0.0 ? 0.5 : 1.0;
+  return part == Part::done ? done : 1.0 - done;
+}
+
+/// Adds what the contacts do to their sides in that part of a step.
+template <Part part>
+inline __attribute__((always_inline)) void add_work(BatchColumns& columns, std::size_t count,
+                                                    double step, double* normal,
+                                                    double* tangential) {
   const sdk::VectorColumns n = columns.vectors(B::normal_x);
   const sdk::VectorColumns force = columns.vectors(B::force_x);
   const sdk::VectorColumns velocity = columns.vectors(B::velocity_x);
 #pragma omp simd
   for (std::size_t q = 0; q < count; ++q) {
-    normal[q] -= step * dot(force[q], n[q]) * dot(velocity[q], n[q]);
-    tangential[q] -= step * dot(sdk::in_contact_plane(force[q], n[q]).part, velocity[q]);
+    const double approach = dot(velocity[q], n[q]);
+    const double along = dot(force[q], n[q]) * approach;
+    const double aside = dot(sdk::in_contact_plane(force[q], n[q]).part, velocity[q]);
+    normal[q] -= step * share_of<part>(approach) * along;
+    tangential[q] -= step * share_of<part>(aside) * aside;
   }
 }
 
-DUST_KERNEL void add_rolling_work(BatchColumns& columns, std::size_t count, double step,
-                                  double* tangential) {
+template <Part part>
+inline __attribute__((always_inline)) void add_rolling_work(BatchColumns& columns,
+                                                            std::size_t count, double step,
+                                                            double* tangential) {
   const sdk::VectorColumns couple = columns.vectors(B::torque_x);
   const sdk::VectorColumns rotation = columns.vectors(B::rotation_x);
 #pragma omp simd
-  for (std::size_t q = 0; q < count; ++q) tangential[q] -= step * dot(couple[q], rotation[q]);
+  for (std::size_t q = 0; q < count; ++q) {
+    const double power = dot(couple[q], rotation[q]);
+    tangential[q] -= step * share_of<part>(power) * power;
+  }
+}
+
+DUST_KERNEL void add_done(BatchColumns& columns, std::size_t count, double step, bool is_rolling,
+                          double* normal, double* tangential) {
+  add_work<Part::done>(columns, count, step, normal, tangential);
+  if (is_rolling) add_rolling_work<Part::done>(columns, count, step, tangential);
+}
+DUST_KERNEL void add_ahead(BatchColumns& columns, std::size_t count, double step, bool is_rolling,
+                           double* normal, double* tangential) {
+  add_work<Part::ahead>(columns, count, step, normal, tangential);
+  if (is_rolling) add_rolling_work<Part::ahead>(columns, count, step, tangential);
 }
 
 /// What of the work done so far cannot be given back any more.
@@ -50,12 +82,13 @@ void find_dissipation(const PairLaws& law, BatchColumns& columns, std::size_t co
                       std::size_t first, Dissipation& out) {
   double* const normal_work = columns.history()[first];
   double* const tangential_work = columns.history()[first + 1];
-  add_work(columns, count, step, normal_work, tangential_work);
-  if (law.rolling) add_rolling_work(columns, count, step, tangential_work);
+  const bool is_rolling = law.rolling != nullptr;
+  add_done(columns, count, step, is_rolling, normal_work, tangential_work);
   ElasticEnergy stored;
   find_elastic_energy(law, columns, count, stored);
   hand_out(normal_work, stored.normal, count, out.normal);
   hand_out(tangential_work, stored.friction, count, out.tangential);
+  add_ahead(columns, count, step, is_rolling, normal_work, tangential_work);
 }
 
 void scatter_dissipation(const Dissipation& out, const contact::Places* places,

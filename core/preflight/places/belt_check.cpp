@@ -51,7 +51,7 @@ void check_belts(const scenario::Setup& setup, const ParticleModels& models,
   if (!(norm(setup.gravity) > 0.0)) return;
   for (std::size_t n = 0; n < setup.bodies.size(); ++n) {
     const scenario::BodySpec& spec = setup.bodies[n];
-    if (spec.motions.size() != 1 || spec.motions.front().name != "belt") continue;
+    if (spec.motions.size() != 1 || models.bodies[n].displaces()) continue;
     const Vec3* head = vector_of(spec.shape, "head");
     const Vec3* tail = vector_of(spec.shape, "tail");
     if (head == nullptr || tail == nullptr) continue;
@@ -86,9 +86,9 @@ void check_feeds_on_belts(const scenario::Setup& setup, const ParticleModels& mo
     if (first[e].empty() || !models.emitters[e]->insertion_rule().waits) continue;
     const sdk::InsertionRequest& grain = first[e].front();
     for (std::size_t n = 0; n < setup.bodies.size(); ++n) {
-      const auto& motions = setup.bodies[n].motions;
       const bodies::Body& body = models.bodies[n];
-      if (motions.size() != 1 || motions.front().name != "belt" || body.displaces()) continue;
+      const bool is_belt = vector_of(setup.bodies[n].shape, "head") != nullptr;
+      if (!is_belt || body.motions.size() != 1 || body.displaces()) continue;
       const bodies::SurfacePoint below = body.nearest(grain.position);
       if (!(below.distance < k_right_above * grain.diameter)) continue;
       const Vec3 foot = grain.position - below.distance * below.normal;

@@ -17,8 +17,6 @@ using sdk::Vec3;
 
 /// [-] of the domain's diagonal: places on a side are in the domain, however they were rounded.
 constexpr double k_rounding = 1e-9;
-/// The sensor of a falling stream, which counts places across gravity.
-constexpr std::string_view k_trajectory = "trajectory";
 
 class Places {
  public:
@@ -42,7 +40,6 @@ class Places {
     }
     check_plane(diagnostics);
     check_point(diagnostics);
-    check_level(diagnostics);
     check_drops(diagnostics);
     for (const std::string_view name : {"from", "to"}) {
       if (const auto* place = get<Vec3>(name)) check_place(name, *place, diagnostics);
@@ -122,25 +119,6 @@ class Places {
                                                base::length_text(std::max(0.0, lowest)) +
                                                " below it: nothing is seen there; leave it out");
     }
-  }
-  /// A direction of which the part across gravity counts.
-  void check_level(scenario::Diagnostics& diagnostics) const {
-    if (spec_.model.name != k_trajectory) return;
-    if (!(norm(gravity_) > 0.0)) {
-      diagnostics.error(spec_.model.where,
-                        spec_.model.path +
-                            ": needs gravity to know which way is down, and there is none: give "
-                            "gravity, or take the sensor out");
-      return;
-    }
-    const auto* along = get<Vec3>("along", sdk::dimension::none);
-    if (along == nullptr || !(norm(*along) > 0.0)) return;
-    const Vec3 down = gravity_ / norm(gravity_);
-    if (norm(*along - dot(*along, down) * down) > k_rounding * norm(*along)) return;
-    diagnostics.error(spec_.model.where,
-                      path("along") +
-                          ": lies along gravity, and its part across gravity is what counts: give "
-                          "the way that the belt runs");
   }
   [[nodiscard]] bool meets(Vec3 low, Vec3 high) const {
     for (int d = 0; d < 3; ++d) {

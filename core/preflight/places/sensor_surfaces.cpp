@@ -7,20 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <variant>
 
 namespace dust::preflight {
 namespace {
 
 using sdk::Vec3;
 
-/// The sensors whose places mean something for a surface.
-constexpr std::string_view k_wear = "wear";
-constexpr std::string_view k_belt_load = "belt_load";
 /// Of half the diagonal of a box: a surface that near counts as in it.
 constexpr double k_finest_part = 0.01;
 /// [-] Cosine between a belt's way and the direction it is looked at in, below which that is not
@@ -32,45 +26,29 @@ constexpr int k_times = 16;
 class Surfaces {
  public:
   Surfaces(const scenario::Setup& setup, const bodies::BodySet& bodies,
-           const scenario::SensorSpec& spec, const sdk::ParameterSchema& parameters)
-      : setup_(setup), bodies_(bodies), spec_(spec), parameters_(parameters) {}
+           const scenario::SensorSpec& spec, scenario::Diagnostics& diagnostics)
+      : setup_(setup), bodies_(bodies), spec_(spec), diagnostics_(diagnostics) {}
 
-  void check_wear(scenario::Diagnostics& diagnostics) const {
-    const auto* low = get<Vec3>("min");
-    const auto* high = get<Vec3>("max");
-    if (low == nullptr || high == nullptr || has_surface(*low, *high)) return;
-    diagnostics.warning(spec_.model.where,
-                        spec_.model.path + ".min: no wall has a part in the box from " +
-                            base::place_text(*low) + " to " + base::place_text(*high) +
-                            ": the wear there is 0; move it round the surface that is meant");
+  void check(const sdk::SurfacesWanted::Box& box) const {
+    if (has_surface(box.min, box.max)) return;
+    warn(": no wall has a part in the box from " + base::place_text(box.min) + " to " +
+         base::place_text(box.max) +
+         ": what it tells of walls there is 0; move it round the surface that is meant");
   }
 
-  void check_belt_load(scenario::Diagnostics& diagnostics) const {
-    const auto* point = get<Vec3>("point");
-    const auto* direction = get<Vec3>("direction");
-    const auto* up = get<Vec3>("up");
-    const auto* length = get<double>("length");
-    const auto* height = get<double>("height");
-    if (point == nullptr || direction == nullptr || up == nullptr || length == nullptr ||
-        height == nullptr || !(norm(*direction) > 0.0) || !(norm(*up) > 0.0)) {
+  void check(const sdk::SurfacesWanted::Stretch& stretch) const {
+    const auto below = nearest(stretch.middle);
+    if (below && std::abs(below->point.distance) <= stretch.reach) {
+      check_way(bodies_[below->body], stretch);
       return;
     }
-    const Vec3 along = *direction / norm(*direction);
-    const Vec3 middle = *point + 0.5 * *length * along;
-    const auto below = nearest(middle);
-    // Grains up to `height` belong to the load: with the surface farther off none of them lies.
-    if (!below || std::abs(below->point.distance) > *height) {
-      diagnostics.warning(
-          spec_.model.where,
-          spec_.model.path + ".point: " +
-              (below ? "the surface nearest to the middle of the stretch, of '" +
-                           bodies_[below->body].name + "', is " +
-                           base::length_text(std::abs(below->point.distance)) + " away from it"
-                     : "there is no body") +
-              ": it looks at no belt; put the point on the belt's top");
-      return;
-    }
-    check_way(bodies_[below->body], middle, along, diagnostics);
+    warn(": looks at no belt: " +
+         (below ? "the surface nearest to the middle of the stretch, " +
+                      base::place_text(stretch.middle) + ", is that of '" +
+                      bodies_[below->body].name + "', " +
+                      base::length_text(std::abs(below->point.distance)) + " away"
+                : std::string("there is no body")) +
+         "; put its point on the belt's top");
   }
 
  private:
@@ -79,12 +57,8 @@ class Surfaces {
     bodies::SurfacePoint point;
   };
 
-  template <class T>
-  [[nodiscard]] const T* get(std::string_view name) const {
-    for (std::size_t n = 0; n < parameters_.size() && n < spec_.model.values.size(); ++n) {
-      if (parameters_[n].name == name) return std::get_if<T>(&spec_.model.values[n]);
-    }
-    return nullptr;
+  void warn(const std::string& text) const {
+    diagnostics_.warning(spec_.model.where, spec_.model.path + text);
   }
 
   [[nodiscard]] bool has_surface(Vec3 low, Vec3 high) const {
@@ -117,26 +91,22 @@ class Surfaces {
     return best;
   }
 
-  void check_way(const bodies::Body& body, Vec3 middle, Vec3 along,
-                 scenario::Diagnostics& diagnostics) const {
+  void check_way(const bodies::Body& body, const sdk::SurfacesWanted::Stretch& stretch) const {
     if (body.motions.empty() || body.displaces()) return;
-    const auto found = body.nearest(middle);
+    const auto found = body.nearest(stretch.middle);
     Vec3 fastest;
     for (int step = 0; step <= k_times; ++step) {
-      const Vec3 v = body.surface_velocity(middle - found.distance * found.normal, found.normal,
-                                           setup_.time.end * step / k_times);
+      const Vec3 v = body.surface_velocity(stretch.middle - found.distance * found.normal,
+                                           found.normal, setup_.time.end * step / k_times);
       if (norm(v) > norm(fastest)) fastest = v;
     }
     const double speed = norm(fastest);
-    if (!(speed > 0.0) || dot(fastest, along) >= k_along * speed) return;
-    diagnostics.warning(
-        spec_.model.where,
-        spec_.model.path + ".direction: is " +
-            (dot(fastest, along) < -k_along * speed ? "against the way" : "across the way") +
-            " that '" + body.name + "' runs there, " + base::digits_text(speed, 3) +
-            " m/s along [" + base::digits_text(fastest.x / speed, 2) + ", " +
-            base::digits_text(fastest.y / speed, 2) + ", " +
-            base::digits_text(fastest.z / speed, 2) + "]: give that direction");
+    const double cosine = speed > 0.0 ? dot(fastest, stretch.along) / speed : 1.0;
+    if (cosine >= k_along) return;
+    warn(std::string(": looks ") + (cosine < -k_along ? "against" : "across") + " the way that '" +
+         body.name + "' runs there, " + base::digits_text(speed, 3) + " m/s along [" +
+         base::digits_text(fastest.x / speed, 2) + ", " + base::digits_text(fastest.y / speed, 2) +
+         ", " + base::digits_text(fastest.z / speed, 2) + "]: give that direction");
   }
 
   static constexpr std::array<double, 2> k_ends{0.0, 1.0};
@@ -144,7 +114,7 @@ class Surfaces {
   const scenario::Setup& setup_;
   const bodies::BodySet& bodies_;
   const scenario::SensorSpec& spec_;
-  const sdk::ParameterSchema& parameters_;
+  scenario::Diagnostics& diagnostics_;
 };
 
 }  // namespace
@@ -153,11 +123,10 @@ void check_sensor_surfaces(const scenario::Setup& setup, const bodies::BodySet& 
                            const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
   for (const scenario::SensorSpec& sensor : setup.sensors) {
     if (diagnostics.has_error_below(sensor.model.path)) continue;
-    const registry::Entry* entry = registry.find("sensor", sensor.model.name);
-    if (entry == nullptr) continue;
-    const Surfaces surfaces(setup, bodies, sensor, entry->info.parameters);
-    if (sensor.model.name == k_wear) surfaces.check_wear(diagnostics);
-    if (sensor.model.name == k_belt_load) surfaces.check_belt_load(diagnostics);
+    const auto wanted = registry.create_as<sdk::Sensor>(sensor.model)->wanted_surfaces();
+    const Surfaces surfaces(setup, bodies, sensor, diagnostics);
+    if (wanted.wall_in) surfaces.check(*wanted.wall_in);
+    if (wanted.stretch) surfaces.check(*wanted.stretch);
   }
 }
 

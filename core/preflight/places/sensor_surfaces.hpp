@@ -8,10 +8,9 @@
 
 namespace dust::preflight {
 
-/// Warns of sensors of surfaces that have none before them, whose figures would be zeros that look
-/// like answers: `wear` without a wall in its box, `belt_load` over nothing, or along another way
-/// than the belt below it runs. Bodies that move or are taken away may come there: they are asked
-/// for where they stand at the beginning and at the end.
+/// Warns of sensors whose wanted surfaces (sdk::SurfacesWanted) are not there: no wall in a box,
+/// nothing below a stretch, or a belt that runs another way. Bodies that move or are taken away may
+/// come there: they are asked for where they stand at the beginning and at the end.
 void check_sensor_surfaces(const scenario::Setup& setup, const bodies::BodySet& bodies,
                            const registry::Registry& registry, scenario::Diagnostics& diagnostics);
 

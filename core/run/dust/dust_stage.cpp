@@ -3,7 +3,7 @@
 
 #include "dust/sdk/sampling.hpp"
 #include "fluid/parallel.hpp"
-#include "preflight/flow_check.hpp"
+#include "preflight/air/air_passage.hpp"
 
 #include <algorithm>
 #include <cmath>

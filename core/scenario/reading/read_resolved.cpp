@@ -142,7 +142,7 @@ void check_resolved(Reading& reading) {
           "coupling.resolved: '" + m.name + "' has " +
               number_text(m.properties.density / fluid.density) +
               " of the fluid's density; below " + number_text(k_lightest) +
-              " the sphere and the fluid that it shoves would drive each other to and fro: take "
+              " the sphere and the fluid that it displaces would drive each other to and fro: take "
               "the material out of resolved");
     }
   }

@@ -15,9 +15,7 @@
 /// the solution for b: own derivation (Ferrari's resolvent).
 namespace dust::model::jkr {
 
-/// b^3 at which a pair moved apart tears: dD/db = 0.
-inline constexpr double k_tear_cubed = 0.25;
-/// D there: -(27/256)^(1/3).
+/// D at which a pair moved apart tears, where dD/db = 0 (b^3 = 1/4): -(27/256)^(1/3).
 inline constexpr double k_tear = -0.47247039371057747;
 /// b^3 at which the force is zero.
 inline constexpr double k_rest_cubed = 1.5;

@@ -65,6 +65,12 @@ class BeltLoad final : public sdk::Sensor {
     up_ = cross(along_, left_);
   }
 
+  [[nodiscard]] sdk::SurfacesWanted wanted_surfaces() const override {
+    sdk::SurfacesWanted wanted;
+    wanted.stretch = {p_.point + 0.5 * p_.length * along_, along_, p_.height};
+    return wanted;
+  }
+
   void observe(const sdk::WorldView& world) override {
     formula::Sums sums;
     const sdk::GrainColumns& g = world.grains;

@@ -62,12 +62,11 @@ class StreamSection final : public sdk::Sensor {
     const sdk::GrainColumns& g = world.grains;
     for (std::size_t i = 0; i < g.id.size() && world.interval > 0.0; ++i) {
       if (!p_.takes(g.diameter[i])) continue;
-      if (rectangle_.passage_of(world, i) <= 0) continue;
-      const double rate = g.weight[i] * g.mass[i] / world.interval;
-      values_[0] += rate;
-      values_[1] += rate * g.velocity_x[i];
-      values_[2] += rate * g.velocity_y[i];
-      values_[3] += rate * g.velocity_z[i];
+      sdk::any_way(world, i, [&](const sdk::Path& way) {
+        if (rectangle_.passage_of(way) <= 0) return false;
+        add(world, i, way);
+        return true;
+      });
     }
     row_.add({values_.data(), 1}, world.interval);
     if (sdk::is_after(world, p_.steady_after)) means_.add(values_, world.interval);
@@ -137,6 +136,20 @@ class StreamSection final : public sdk::Sensor {
     sdk::Vec3 velocity;      ///< [m/s] mean by mass passed; no numbers where nothing passed
   };
 
+  /// A grain that has passed, at its velocity where it did: back from that at the end of the sample
+  /// along the acceleration there.
+  void add(const sdk::WorldView& world, std::size_t i, const sdk::Path& way) {
+    const sdk::GrainColumns& g = world.grains;
+    const auto height = [&](sdk::Vec3 x) { return dot(x - p_.point, rectangle_.normal()); };
+    const double fraction = sdk::passage(height(way.before), height(way.now)).fraction;
+    const double since = (1.0 - fraction) * world.interval;
+    const sdk::Vec3 force{g.force_x[i], g.force_y[i], g.force_z[i]};
+    const sdk::Vec3 velocity =
+        sdk::Vec3{g.velocity_x[i], g.velocity_y[i], g.velocity_z[i]} - (since / g.mass[i]) * force;
+    const double rate = g.weight[i] * g.mass[i] / world.interval;
+    values_[0] += rate;
+    for (int d = 0; d < 3; ++d) values_[static_cast<std::size_t>(1 + d)] += rate * velocity[d];
+  }
   [[nodiscard]] Stream stream() const {
     const double flow = means_.known_mean(0);
     // A flow of nothing has no velocity; without a time not even the flow is known.

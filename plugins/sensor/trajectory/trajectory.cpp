@@ -96,15 +96,21 @@ class Trajectory final : public sdk::Sensor {
     if (classes_.empty()) {
       classes_.assign(world.class_diameters.begin(), world.class_diameters.end());
     }
-    if (!sdk::is_after(world, p_.steady_after)) return;
     const double gravity = norm(world.gravity);
     if (!(gravity > 0.0)) {
-      throw sdk::ModelError("the trajectory sensor needs gravity to know which way is down");
+      throw sdk::ModelError(
+          "needs gravity to know which way is down, and there is none: give gravity, or take the "
+          "sensor out");
     }
     const sdk::Vec3 down = world.gravity / gravity;
     const sdk::Vec3 across = p_.along - dot(p_.along, down) * down;
-    if (!(norm(across) > 0.0))
-      throw sdk::ModelError("'along' of the trajectory lies along gravity");
+    constexpr double k_rounding = 1e-9;
+    if (!(norm(across) > k_rounding * norm(p_.along))) {
+      throw sdk::ModelError(
+          "'along' lies along gravity, and its part across gravity is what counts: give the way "
+          "that the belt runs");
+    }
+    if (!sdk::is_after(world, p_.steady_after)) return;
     const sdk::Vec3 along = across / norm(across);
 
     const Axes axes{along, down};

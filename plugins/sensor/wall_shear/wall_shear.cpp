@@ -45,6 +45,11 @@ class WallShear final : public sdk::Sensor {
   }
 
   [[nodiscard]] bool wants_fluid() const override { return true; }
+  [[nodiscard]] sdk::SurfacesWanted wanted_surfaces() const override {
+    sdk::SurfacesWanted wanted;
+    wanted.rubbed_side = p_.side;
+    return wanted;
+  }
   void observe(const sdk::WorldView& world) override {
     const sdk::FluidColumns& f = world.fluid;
     const sdk::FluidCells cells(f);

@@ -72,6 +72,11 @@ class Wear final : public sdk::Sensor {
   }
 
   [[nodiscard]] bool wants_contacts() const override { return true; }
+  [[nodiscard]] sdk::SurfacesWanted wanted_surfaces() const override {
+    sdk::SurfacesWanted wanted;
+    wanted.wall_in = {p_.min, p_.max};
+    return wanted;
+  }
 
   void observe(const sdk::WorldView& world) override {
     values_.fill(0.0);

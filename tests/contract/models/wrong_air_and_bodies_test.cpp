@@ -140,14 +140,14 @@ namespace {
 
 /// Goes along x with 1 m/s, or says so.
 struct Slide final : Motion {
-  enum Fault { none, elsewhere, faster, surface_faster };
+  enum Fault { none, elsewhere, faster, surface_faster, stands };
   explicit Slide(Fault f) : fault(f) {}
   void surface_velocity(const SurfaceBatch& b) const override {
     Motion::surface_velocity(b);
     if (fault == surface_faster) std::fill_n(b.velocity.y, b.count, 3.0);
   }
   [[nodiscard]] double largest_speed() const override { return fault == faster ? 0.5 : 1.0; }
-  [[nodiscard]] bool moves_body() const override { return true; }
+  [[nodiscard]] bool moves_body() const override { return fault != stands; }
   [[nodiscard]] RigidPose pose(double time) const override {
     RigidPose p;
     p.shift.x = fault == elsewhere ? 1.1 * time : time;
@@ -164,6 +164,8 @@ TEST_CASE("a motion that is wrong shall be told by the rule it breaks") {
   CHECK(seen.broken(rule_results_on<Slide>(Slide::none), "velocity takes it").empty());
   CHECK(seen.broken(rule_results_on<Slide>(Slide::elsewhere), "velocity takes it")
             .find("in 1000 of 1000 short times the body goes elsewhere") == 0);
+  CHECK(seen.broken(rule_results_on<Slide>(Slide::stands), "velocity takes it")
+            .find("its pose changes with time and moves_body() says that it does not") == 0);
   CHECK(seen.broken(rule_results_on<Slide>(Slide::faster), "largest speed")
             .find("the body is faster at 0 s than the largest speed told") == 0);
   CHECK(seen.broken(rule_results_on<Slide>(Slide::surface_faster), "largest speed") ==
@@ -263,6 +265,7 @@ struct Liberation final : LiberationLaw {
     hides_moisture,
     bound_by_dryness,
     by_step,
+    hides_wind,
     idle
   };
   explicit Liberation(Fault f) : fault(f) {}
@@ -281,6 +284,15 @@ struct Liberation final : LiberationLaw {
       if (fault == negative) share = -share;
       if (fault == idle) share = 0.0;
       for (std::size_t k = 0; k < g.classes; ++k) {
+        g.released[k * g.stride + q] = share * g.load[k * g.stride + q];
+      }
+    }
+  }
+  void in_wind(const GrainWind& b) const override {
+    const DustyGrains& g = b.grains;
+    for (std::size_t k = 0; k < g.classes; ++k) {
+      for (std::size_t q = 0; q < g.count; ++q) {
+        const double share = fault == hides_wind && b.shear[q] > 0.0 ? 0.01 : 0.0;
         g.released[k * g.stride + q] = share * g.load[k * g.stride + q];
       }
     }
@@ -312,6 +324,8 @@ TEST_CASE("a liberation law that is wrong shall be told by the rule it breaks") 
             .find("of the same grain that is drier") != std::string::npos);
   CHECK(seen.remarked(rule_results_on<L>(L::by_step), "two halves")
             .find("an impact in two halves sets free ") == 0);
+  CHECK(seen.broken(rule_results_on<L>(L::hides_wind), "asked for all")
+            .find("it sets dust free in wind and needs_wind() says that it does not") == 0);
   CHECK(seen.broken(rule_results_on<L>(L::idle), "something free") ==
         "nothing comes off in the strongest impact or wind");
   seen.check_complete();

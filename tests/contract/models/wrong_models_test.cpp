@@ -137,6 +137,7 @@ struct Spring final : sdk::ContactLaw {
     along_x,
     bouncy,
     slow_times,
+    short_times,
     sticky_sliding,
     tells_stiffness_wrong,
     moves_by_velocity,
@@ -200,11 +201,14 @@ struct Spring final : sdk::ContactLaw {
     const double whole = 0.5 * swing(mass, p.stiffness) * (1.0 + p.restitution);
     if (fault == covers_stiff_unloading) return std::min(whole, 2.0 * swing(mass, stiffest()));
     if (is_plastic()) return whole;
-    return swing(mass, p.stiffness) * (fault == slow_times ? 3.0 : 1.0);
+    return swing(mass, p.stiffness) * time_factor();
   }
   [[nodiscard]] double half_period(double, double mass, double) const override {
     if (fault == hides_stiff_unloading) return swing(mass, p.stiffness);
-    return swing(mass, stiffest()) * (fault == slow_times ? 3.0 : 1.0);
+    return swing(mass, stiffest()) * time_factor();
+  }
+  [[nodiscard]] double time_factor() const {
+    return fault == slow_times ? 3.0 : fault == short_times ? 0.1 : 1.0;
   }
   P p;
   Fault fault;
@@ -239,6 +243,8 @@ TEST_CASE("a contact law that is wrong shall be told by the rule it breaks") {
   CHECK(seen.broken(spring(Spring::along_x), "direction").find("in a turned world") == 0);
   CHECK(seen.broken(spring(Spring::bouncy), "restitution").find("realised") != std::string::npos);
   CHECK(seen.broken(spring(Spring::slow_times), "times").find("collision_time says") !=
+        std::string::npos);
+  CHECK(seen.broken(spring(Spring::short_times), "times").find("collision_time says") !=
         std::string::npos);
   CHECK(seen.broken(spring(Spring::sticky_sliding), "energy").find("of its energy") !=
         std::string::npos);

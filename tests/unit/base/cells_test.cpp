@@ -10,7 +10,7 @@
 
 using namespace dust::base;
 
-TEST_CASE("Cells below zero are cells of their own, and a period wraps them") {
+TEST_CASE("cells below zero shall be cells of their own, and a period shall wrap them") {
   CHECK(cell_index(0.0) == 0);
   CHECK(cell_index(0.999) == 0);
   CHECK(cell_index(-1e-9) == -1);
@@ -20,7 +20,7 @@ TEST_CASE("Cells below zero are cells of their own, and a period wraps them") {
   CHECK(wrapped_cell(-11, 0) == -11);
 }
 
-TEST_CASE("Cells have keys of their own, on both sides of zero, none of all ones") {
+TEST_CASE("each cell shall have a key of its own, on both sides of zero, none of all ones") {
   std::set<std::uint64_t> keys;
   std::size_t cells = 0;
   const std::vector<std::int64_t> indices = {-1048576, -70000, -2, -1, 0, 1, 2, 70000, 1048575};
@@ -37,7 +37,7 @@ TEST_CASE("Cells have keys of their own, on both sides of zero, none of all ones
   CHECK(cell_key(1, 2, 3) == cell_key(1 + (std::int64_t{1} << k_cell_bits), 2, 3));
 }
 
-TEST_CASE("Keys of a block of cells spread over a table: no slot takes more than a few") {
+TEST_CASE("keys of a block of cells shall spread over a table: no slot takes more than a few") {
   constexpr int k_bits = 15;
   std::vector<int> taken(std::size_t{1} << k_bits, 0);
   for (int i = 0; i < 16; ++i) {

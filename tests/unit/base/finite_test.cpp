@@ -15,7 +15,7 @@ constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_largest = std::numeric_limits<double>::max();
 }  // namespace
 
-TEST_CASE("The first number of a column that is none is found wherever it stands") {
+TEST_CASE("the first number of a column that is none shall be found wherever it stands") {
   std::vector<double> column(37, 1.0);
   column[3] = k_largest;
   column[5] = -k_largest;
@@ -31,7 +31,7 @@ TEST_CASE("The first number of a column that is none is found wherever it stands
   CHECK(first_not_finite(nullptr, 0) == 0);
 }
 
-TEST_CASE("A vector is finite when its components are, however large their sum") {
+TEST_CASE("a vector shall be finite when its components are, however large their sum") {
   CHECK(is_finite({k_largest, k_largest, k_largest}));
   CHECK_FALSE(is_finite({0.0, k_none, 0.0}));
   CHECK_FALSE(is_finite({k_infinite, -k_infinite, 0.0}));

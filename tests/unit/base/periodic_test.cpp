@@ -10,7 +10,8 @@
 
 using namespace dust::base;
 
-TEST_CASE("The nearest image lies within half a period, on the side it came from at the half") {
+TEST_CASE(
+    "the nearest image shall lie within half a period, on the side it came from at the half") {
   CHECK(nearest_image(0.4, 1.0) == 0.4);
   CHECK(nearest_image(0.5, 1.0) == 0.5);
   CHECK(nearest_image(-0.5, 1.0) == -0.5);
@@ -20,13 +21,13 @@ TEST_CASE("The nearest image lies within half a period, on the side it came from
   CHECK(nearest_image_of_any(-3.25, 1.0) == -0.25);
 }
 
-TEST_CASE("A direction without a period moves nothing") {
+TEST_CASE("a direction without a period shall move nothing") {
   CHECK(nearest_image(3.0, 0.0) == 3.0);
   CHECK(nearest_image(-3.0, 0.0) == -3.0);
   CHECK(nearest_image(1e9, 0.0, std::numeric_limits<double>::infinity()) == 1e9);
 }
 
-TEST_CASE("One number, four lanes and any distance agree") {
+TEST_CASE("one number, four lanes and any distance shall agree") {
   const double length = 0.013;
   const dust::lanes::Lanes lengths{length, length, length, 0.0};
   const dust::lanes::Lanes halves{0.5 * length, 0.5 * length, 0.5 * length, HUGE_VAL};

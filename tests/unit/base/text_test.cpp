@@ -12,7 +12,7 @@
 
 using namespace dust::base;
 
-TEST_CASE("Numbers for people read as printf writes them") {
+TEST_CASE("numbers for people shall read as printf writes them") {
   const double numbers[] = {0.0,   1.0,   -1.0,    0.1 + 0.2, 1e-5, 123456.0, 1234567.0,
                             9.995, 1e100, -2.5e-9, 99.95,     1e21, 0.5,      2.5};
   for (const double v : numbers) {
@@ -33,7 +33,7 @@ TEST_CASE("Numbers for people read as printf writes them") {
   CHECK(digits_text(std::numeric_limits<double>::quiet_NaN(), 4) == "nan");
 }
 
-TEST_CASE("The shortest text of a number reads back as the same bits") {
+TEST_CASE("the shortest text of a number shall read back as the same bits") {
   for (const double v : {0.1, 1.0 / 3.0, 1e300, 5e-324, -0.0, 123456789.0}) {
     const double back = std::strtod(shortest_text(v).c_str(), nullptr);
     CHECK(back == v);
@@ -44,7 +44,7 @@ TEST_CASE("The shortest text of a number reads back as the same bits") {
   CHECK(shortest_text(-std::numeric_limits<double>::quiet_NaN()) == "nan");
 }
 
-TEST_CASE("Durations: three digits below 100 s, then minutes and hours") {
+TEST_CASE("durations shall have three digits below 100 s, then minutes and hours") {
   CHECK(duration_text(0.01234) == "0.0123 s");
   CHECK(duration_text(99.94) == "99.9 s");
   CHECK(duration_text(125.0) == "2 min 05 s");
@@ -52,7 +52,7 @@ TEST_CASE("Durations: three digits below 100 s, then minutes and hours") {
   CHECK(duration_text(3725.0) == "1 h 02 min");
 }
 
-TEST_CASE("Estimated durations: two digits of one unit") {
+TEST_CASE("estimated durations shall have two digits of one unit") {
   CHECK(estimated_duration_text(0.2) == "1 s");
   CHECK(estimated_duration_text(44.4) == "44 s");
   CHECK(estimated_duration_text(98.9) == "99 s");
@@ -62,7 +62,7 @@ TEST_CASE("Estimated durations: two digits of one unit") {
   CHECK(estimated_duration_text(123.0 * 3600.0) == "123 h");
 }
 
-TEST_CASE("Lengths, masses and flows in the unit people of their size use") {
+TEST_CASE("lengths, masses and flows shall have the unit that people of their size use") {
   CHECK(length_text(0.35) == "350 mm");
   CHECK(length_text(1.2) == "1.2 m");
   CHECK(length_text(60e-6) == "60 um");
@@ -82,19 +82,19 @@ TEST_CASE("Lengths, masses and flows in the unit people of their size use") {
   CHECK(volume_flow_text(12.0 / 6e4) == "12 l/min");
 }
 
-TEST_CASE("Places have their three coordinates in m") {
+TEST_CASE("places shall have their three coordinates in m") {
   CHECK(place_text({0.0059, -1.2, 0.0}) == "(0.0059, -1.2, 0) m");
   CHECK(place_text({0.1234567, 1e-7, 1000.0}, 6) == "(0.123457, 1e-07, 1000) m");
 }
 
-TEST_CASE("Edges share the unit of the longest") {
+TEST_CASE("edges shall share the unit of the longest") {
   CHECK(extent_text({0.34, 0.02, 0.33}) == "340 x 20 x 330 mm");
   CHECK(extent_text({3.4, 2.6, 3.0}) == "3.4 x 2.6 x 3 m");
   CHECK(extent_text({1.2, 0.02, 0.5}) == "1200 x 20 x 500 mm");
   CHECK(extent_text({4e-4, 3e-4, 5e-4}) == "400 x 300 x 500 um");
 }
 
-TEST_CASE("Mass flows are t/h where the domain is a plant, kg/s and below elsewhere") {
+TEST_CASE("mass flows shall be t/h where the domain is a plant, kg/s and below elsewhere") {
   CHECK(mass_flow_text(250.0 / 3.6, 3.4) == "250 t/h (69.4 kg/s)");
   CHECK(mass_flow_text(5000.0 / 3.6, 30.0) == "5000 t/h (1389 kg/s)");
   CHECK(mass_flow_text(0.2, 3.4) == "200 g/s");

@@ -94,7 +94,8 @@ TEST_CASE("an open domain with a belt and a falling stream shall stay bounded, d
   MESSAGE("fastest " << fastest << " m/s, divergence " << c->solver->report().divergence << " 1/s");
   CHECK(fastest < 2.5);  // grains pull towards 1.5 m/s
   CHECK(fastest > 0.8);
-  CHECK(c->solver->report().divergence < 1e-3 * 1.5 / 1.25e-3);
+  // The pressure is solved to 1e-4 of what the flow of a step lacks, which is far less than U/h.
+  CHECK(c->solver->report().divergence < 1e-6 * 1.5 / 1.25e-3);
 }
 
 TEST_CASE("faces inside a body shall make linear interpolation meet the surface's velocity") {
@@ -137,7 +138,7 @@ TEST_CASE("a thin direction shall not change a flow that does not vary along it"
         off = std::max(off, std::abs(flat->u(d, i, 0, k) - deep->u(d, i, 2, k)));
     }
   }
-  CHECK(off < 5e-3);  // the pressure is solved to 1e-4 in both, on different grids
+  CHECK(off < 5e-6);  // the pressure is solved to 1e-4 of each step's change, on different grids
 }
 
 TEST_CASE("a slippery column one cell across shall have no friction, along any axis") {

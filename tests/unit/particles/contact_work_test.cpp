@@ -87,6 +87,31 @@ TEST_CASE("a head-on bounce on a wall shall leave its lost energy with the grain
   }
 }
 
+TEST_CASE("a bounce that costs next to nothing shall hand out next to nothing") {
+  const auto handed_out = [](double restitution, double speed) {
+    DemRig rig = dusty_rig();
+    rig.law(0, 1, restitution, 0.0);
+    rig.wall(4, 1);
+    const auto dem = rig.make();
+    dem->insert({{{.position = {0, 0, -1 + 0.6 * k_diameter},
+                   .velocity = {0, 0, -speed},
+                   .diameter = k_diameter}}});
+    const double before = energy(grain(*dem, 0));
+    run(*dem, 2e-3 + k_diameter / speed);
+    CHECK(grain(*dem, 0).velocity.z > 0.0);
+    return dem->contact_work().with_wall(row_of(*dem, 0), 0).sum() / before;
+  };
+  // To second order in the steps of a collision: some 15 at the expected speed, more of slower
+  // ones.
+  for (const double speed : {0.1, 1.0, 3.0}) {
+    CAPTURE(speed);
+    const double least = speed < 0.5 ? 0.01 : 0.02;
+    CHECK(handed_out(1.0, speed) < least);
+    CHECK(handed_out(0.99, speed) == approx(1.0 - 0.99 * 0.99).scale(1.0).epsilon(least));
+    CHECK(handed_out(0.95, speed) == approx(1.0 - 0.95 * 0.95).scale(1.0).epsilon(least));
+  }
+}
+
 TEST_CASE("two grains shall share what their collision dissipates") {
   DemRig rig = dusty_rig();
   rig.law(0, 0, 0.5, 0.4);

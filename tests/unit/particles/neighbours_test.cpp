@@ -216,8 +216,8 @@ TEST_CASE("no contact shall be missed where a few fast grains run through a crow
     // Dust between grains that collide is kicked out of its allowance in a step, and counted.
     CHECK(dem->report().missed_contact_onsets == 0);
     CHECK(dem->rows().count == count);
-    CHECK(dem->report().mends > 20);
-    CHECK(dem->report().mends > dem->report().rebuilds);
+    CHECK(dem->report().list_repairs > 20);
+    CHECK(dem->report().list_repairs > dem->report().rebuilds);
   }
 }
 

@@ -107,7 +107,7 @@ void check(const Flock& flock, std::size_t at_least) {
 
 }  // namespace
 
-TEST_CASE("the search shall find what comes near within the horizon, and nothing else") {
+TEST_CASE("the search shall find what comes near in the time asked for, and nothing else") {
   SUBCASE("a crowd, in a table of cells") { check({300, {4e-3, 3e-3, 3e-3}, 2.0}, 500); }
   SUBCASE("few grains far apart, most cells empty") {
     Flock flock(200, {0.3, 0.02, 0.3}, 2.0);

@@ -348,7 +348,7 @@ TEST_CASE("a trajectory along gravity shall be refused before the run") {
                               along + ", steady_after: 90 ms}"};
   };
   CHECK(said({stream("[1, 0, 1]")}).errors == std::vector<std::string>{});
-  CHECK(problem({stream("[0, 0, 1]")}, {"sensors.stream.along: lies along gravity",
+  CHECK(problem({stream("[0, 0, 1]")}, {"sensors.stream: 'along' lies along gravity",
                                         "give the way that the belt runs"}) == "");
   CHECK(problem({stream("[1, 0, 0]"), {"gravity", "[0, 0, 0]"}},
                 {"sensors.stream: needs gravity"}) == "");
@@ -551,11 +551,18 @@ std::vector<scenario::Override> with_belt(bool is_turned, std::vector<scenario::
 
 }  // namespace
 
+TEST_CASE("steps of grains too short for any run shall be refused") {
+  CHECK(problem({{"time.dem_step", "2e-13 s"}},
+                {"time.dem_step: a fluid step of 0.001 s would be more than 1e9 steps",
+                 "leave dem_step out, or give a longer one"}) == "");
+  CHECK(said({{"time.dem_step", "1e-9 s"}}).errors == std::vector<std::string>{});
+}
+
 TEST_CASE("wear of no wall shall be warned of") {
   const auto warned = [](const std::string& min, const std::string& max) {
     return is_warned({{"sensors.liner", "{model: wear, min: " + min + ", max: " + max +
                                             ", cell: 5 mm, coefficient: 1e-4, hardness: 1 GPa}"}},
-                     "sensors.liner.min: no wall has a part in the box");
+                     "sensors.liner: no wall has a part in the box");
   };
   CHECK(warned("[20, 10, 100 mm]", "[60, 40, 120 mm]"));
   CHECK(warned("[20, 10, 22 mm]", "[60, 40, 28 mm]"));  // inside the shelf
@@ -571,16 +578,17 @@ TEST_CASE("the load of no belt, and of one that runs another way, shall be warne
                                                   ", direction: " + direction +
                                                   ", length: 20 mm, width: 30 mm, height: 20 mm}"};
   };
-  const std::string none = "it looks at no belt";
+  const std::string none = "sensors.load: looks at no belt";
   CHECK(is_warned(with_belt(false, {load("[40, 25, 150 mm]", "[1, 0, 0]")}), none));
   CHECK_FALSE(is_warned(with_belt(false, {load("[40, 25, 92 mm]", "[1, 0, 0]")}), none));
   CHECK(is_warned(with_belt(false, {load("[50, 15, 92 mm]", "[0, 1, 0]")}),
-                  "sensors.load.direction: is across the way that 'belt' runs there, 1 m/s"));
+                  "sensors.load: looks across the way that 'belt' runs there, 1 m/s"));
   CHECK(is_warned(with_belt(false, {load("[60, 25, 92 mm]", "[-1, 0, 0]")}),
-                  "sensors.load.direction: is against the way that 'belt' runs there, 1 m/s"));
-  CHECK_FALSE(is_warned(with_belt(true, {load("[60, 25, 92 mm]", "[-1, 0, 0]")}), "direction"));
+                  "sensors.load: looks against the way that 'belt' runs there, 1 m/s"));
+  CHECK_FALSE(
+      is_warned(with_belt(true, {load("[60, 25, 92 mm]", "[-1, 0, 0]")}), "sensors.load: looks"));
   // The shelf stands: it has no way.
-  CHECK_FALSE(is_warned({load("[40, 25, 30 mm]", "[0, 1, 0]")}, "direction"));
+  CHECK_FALSE(is_warned({load("[40, 25, 30 mm]", "[0, 1, 0]")}, "sensors.load: looks"));
 }
 
 TEST_CASE("a stream that comes in against the way of the belt below shall be warned of") {

@@ -182,9 +182,13 @@ struct Liberation final : Trial<sdk::LiberationLaw> {
   using Trial::Trial;
   void prepare(const sdk::DustProperties&) override {}
   void in_contacts(const sdk::GrainImpacts& b) const override {
+    b.grains.released[0] = 0.0;
     b.grains.released[b.grains.stride] = deed(what, 1.0);
   }
-  void in_wind(const sdk::GrainWind& b) const override { b.grains.released[0] = deed(what, 1.0); }
+  void in_wind(const sdk::GrainWind& b) const override {
+    b.grains.released[0] = deed(what, 1.0);
+    b.grains.released[b.grains.stride] = 0.0;
+  }
   bool needs_wind() const override { return true; }
   bool uses_moisture() const override { return true; }
 };

@@ -45,7 +45,7 @@ TEST_CASE("in still air lone grains shall fall as far as an independent solution
   }
 }
 
-TEST_CASE("what does not sink has no path") {
+TEST_CASE("what does not sink shall have no path") {
   CHECK(isolated_flight({1e-3, 1.0, 0.8}, k_air, k_gravity, k_drops).empty());
   CHECK(isolated_flight({1e-3, 2650.0, 0.8}, k_air, 0.0, k_drops).empty());
 }

@@ -11,7 +11,8 @@
 
 namespace dust::test {
 
-TEST_CASE("resolved: a sphere of the DEM receives what the fluid gives, its momentum and spin") {
+TEST_CASE(
+    "resolved: a sphere of the DEM shall receive what the fluid gives, its momentum and spin") {
   DemRig rig;
   const int nylon = rig.material(2500.0, 5e6, 0.3);
   rig.law(nylon, nylon, 0.9, 0.3);

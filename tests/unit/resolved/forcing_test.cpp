@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace dust::test {
-TEST_CASE("resolved: steady drag does not depend on the fluid step, nor on the time to settle") {
+TEST_CASE("resolved: steady drag shall not depend on the fluid step, nor on the time to settle") {
   // 8 cells across, the fewest that are allowed. All markers stand still in the end, so what is
   // left is how steady "steady" is.
   const double drag = array_drag(16, 0.064);
@@ -24,7 +24,7 @@ TEST_CASE("resolved: steady drag does not depend on the fluid step, nor on the t
   }
 }
 
-TEST_CASE("resolved: momentum of sphere and fluid in a periodic box") {
+TEST_CASE("resolved: sphere and fluid in a periodic box shall keep their momentum") {
   auto box = cubic_array(24, 3.0);
   box->step = 0.01;
   box->fluid.viscosity = 0.1;
@@ -51,7 +51,9 @@ TEST_CASE("resolved: momentum of sphere and fluid in a periodic box") {
   CHECK(norm(box->grains.momentum()) < 0.9 * scale);
 }
 
-TEST_CASE("resolved: the force on a sphere that is pushed through the grid") {
+TEST_CASE(
+    "resolved: the force on a sphere that is pushed through the grid shall not swing with its "
+    "cells") {
   auto box = cubic_array(20, 2.5);  // 8 cells across
   box->step = 0.02;
   box->fluid.viscosity = 0.5;
@@ -71,7 +73,7 @@ TEST_CASE("resolved: the force on a sphere that is pushed through the grid") {
   CHECK(*most - *least > 1e-6 * std::abs(*most));  // it does feel the grid
 }
 
-TEST_CASE("resolved: the stream holds back a sphere that outruns it until that has left") {
+TEST_CASE("resolved: the stream shall hold back a sphere that outruns it until that has left") {
   // 8 cells across, 1.2 times as fast as the fluid, out of a duct with an open end at z = 3.
   ResolvedBox box;
   box.max = {2.0, 2.0, 3.0};
@@ -99,7 +101,7 @@ TEST_CASE("resolved: the stream holds back a sphere that outruns it until that h
   }
 }
 
-TEST_CASE("resolved: the same bits with one and two threads") {
+TEST_CASE("resolved: one and two threads shall give the same bits") {
   const auto run = [](int threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));

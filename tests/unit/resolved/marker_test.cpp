@@ -13,7 +13,9 @@ namespace dust::test {
 using resolved::RomaPoints;
 using sdk::Vec3;
 
-TEST_CASE("resolved: the delta function has the whole weight, and its mean place, wherever it is") {
+TEST_CASE(
+    "resolved: the delta function shall have the whole weight, and its mean place, wherever it "
+    "is") {
   for (double place = 3.0; place < 4.0; place += 0.0625) {
     const RomaPoints points = RomaPoints::around(place);
     double sum = 0.0;
@@ -32,7 +34,7 @@ TEST_CASE("resolved: the delta function has the whole weight, and its mean place
   }
 }
 
-TEST_CASE("resolved: markers cover the sphere evenly") {
+TEST_CASE("resolved: markers shall cover the sphere evenly") {
   const auto lattice = resolved::make_lattice(12.0, 1.0);
   CHECK(static_cast<int>(lattice.direction.size()) == resolved::marker_count(12.0));
   CHECK(lattice.radius == test::approx(12.0 / 2.0 - resolved::retraction(12.0)));

@@ -21,7 +21,7 @@ std::unique_ptr<ResolvedBox> falling_sphere(double density) {
 
 }  // namespace
 
-TEST_CASE("resolved: fluid inside that turns as a whole has the sphere's momentum") {
+TEST_CASE("resolved: fluid inside that turns as a whole shall have the sphere's momentum") {
   auto box = cubic_array(24, 3.0);
   box->start();
   const resolved::Sphere sphere{0, {1.53, 1.41, 1.47}, {}, {}, 0.5};
@@ -42,7 +42,7 @@ TEST_CASE("resolved: fluid inside that turns as a whole has the sphere's momentu
   CHECK(norm(inner.angular - turning) < 0.03 * norm(turning));
 }
 
-TEST_CASE("resolved: a heavier sphere falls faster, and both towards an end") {
+TEST_CASE("resolved: a heavier sphere shall fall faster, and both towards an end") {
   const auto fall = [](double density) {
     auto box = falling_sphere(density);
     double before = 0.0;
@@ -61,7 +61,7 @@ TEST_CASE("resolved: a heavier sphere falls faster, and both towards an end") {
   CHECK(fall(4.0) > fall(2.0));
 }
 
-TEST_CASE("resolved: a sphere of the fluid's density stays with a uniform stream") {
+TEST_CASE("resolved: a sphere of the fluid's density shall stay with a uniform stream") {
   auto box = cubic_array(24, 3.0);
   box->step = 0.02;
   const Vec3 stream{0.5, 0.25, 0.0};
@@ -74,7 +74,8 @@ TEST_CASE("resolved: a sphere of the fluid's density stays with a uniform stream
 
 // The fluid meets the spin of the step before: a free sphere of 0.8 of the fluid's density spun up
 // by itself at long steps.
-TEST_CASE("resolved: the spin of a light sphere dies away, also with the longest step allowed") {
+TEST_CASE(
+    "resolved: the spin of a light sphere shall die away, also with the longest step allowed") {
   auto box = cubic_array(24, 3.0);
   const double h = 3.0 / 24;
   box->step = h * h;
@@ -89,7 +90,7 @@ TEST_CASE("resolved: the spin of a light sphere dies away, also with the longest
   CHECK(norm(box->grains.rotation(0)) < 0.5 * before);
 }
 
-TEST_CASE("resolved: goes on from a checkpoint with the same bits") {
+TEST_CASE("resolved: spheres shall go on from a checkpoint with the same bits") {
   auto whole = falling_sphere(2.0);
   auto half = falling_sphere(2.0);
   for (int n = 0; n < 3; ++n) {

@@ -246,7 +246,7 @@ TEST_CASE("grains that touch each other or a wall exactly shall come in, an over
   }
 }
 
-TEST_CASE("a bed pressed by its weight may overlap as much as is allowed and no more") {
+TEST_CASE("a bed pressed by its weight shall overlap as much as is allowed and no more") {
   auto s = scene();
   s.rules[0] = {.waits = false, .allowed_overlap = 0.01};
   // 0.8 % and 1.2 % of the radius.

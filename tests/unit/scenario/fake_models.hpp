@@ -160,7 +160,7 @@ struct Belt final : Motion {
     return s.build();
   }
   explicit Belt(const Parameters& p) : speed(p.speed) {}
-  void surface_velocity(const SurfaceBatch&) const override {}
+  void surface_velocity(const SurfaceBatch& b) const override { Motion::surface_velocity(b); }
   [[nodiscard]] double largest_speed() const override { return std::abs(speed); }
   double speed;
 };

@@ -29,7 +29,7 @@ TEST_CASE("settings shall reach values, lists, list elements and absent optional
   CHECK(setup.fluid->largest_cfl == 0.5);
 }
 
-TEST_CASE("a setting may add a whole thing") {
+TEST_CASE("a setting shall be able to add a whole thing") {
   const auto setup =
       read(transfer_point(), {{"bodies.lid",
                                "{shape: plate, material: plate, hinge: [1, 0, 1 mm], length: 1 mm, "
@@ -203,7 +203,7 @@ TEST_CASE("one component of a list shall be set without the unit of the others")
   }
 }
 
-TEST_CASE("a setting may exchange a model that has parameters") {
+TEST_CASE("a setting shall be able to exchange a model that has parameters") {
   const auto setup =
       read(transfer_point(), {{"domain.boundaries.left.air.model", "no_slip"}}).setup;
   CHECK(setup.domain.sides[0].air->name == "no_slip");

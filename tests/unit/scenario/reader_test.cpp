@@ -209,7 +209,7 @@ TEST_CASE("a scenario that the engine wrote shall draw no warning of bare number
         given.warnings.size() + 1);
 }
 
-TEST_CASE("an including file may exchange a model that has parameters") {
+TEST_CASE("an including file shall be able to exchange a model that has parameters") {
   const Folder folder;
   folder.write("base.yaml", changed(k_small, "air: {model: total_pressure}",
                                     "air: {model: total_pressure, pressure: 2 Pa}"));

@@ -11,7 +11,7 @@ using dust::sdk::in_contact_plane;
 using dust::sdk::Vec3;
 using dust::test::approx;
 
-TEST_CASE("A spring along the plane stays as it is, one along the normal is gone") {
+TEST_CASE("a spring along the plane shall stay as it is, one along the normal shall be gone") {
   const auto stays = in_contact_plane({3.0, 0.0, -4.0}, {0.0, 1.0, 0.0});
   CHECK(stays.part == Vec3{3.0, 0.0, -4.0});
   CHECK(stays.squared_before == 25.0);
@@ -22,7 +22,7 @@ TEST_CASE("A spring along the plane stays as it is, one along the normal is gone
   CHECK(gone.squared == 0.0);
 }
 
-TEST_CASE("A spring that turns with its contact once round comes back, at its length") {
+TEST_CASE("a spring that turns with its contact once round shall come back, at its length") {
   // The normal goes round the z axis in small steps; the spring is across it, half along z. What is
   // along z stays, what is across follows the normal: after one turn both are where they were.
   constexpr int k_steps = 100000;

@@ -32,7 +32,7 @@ int wrong_roots(const std::array<double, k_count>& of) {
 
 }  // namespace
 
-TEST_CASE("square roots of any size have the bits of std::sqrt") {
+TEST_CASE("square roots of any size shall have the bits of std::sqrt") {
   const dust::sdk::Random random(7, 1);
   int wrong = 0;
   for (std::uint64_t n = 0; n < 40000; ++n) {
@@ -50,7 +50,8 @@ TEST_CASE("square roots of any size have the bits of std::sqrt") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("square roots next to squares, where rounding is hardest, have the bits of std::sqrt") {
+TEST_CASE(
+    "square roots next to squares, where rounding is hardest, shall have the bits of std::sqrt") {
   const dust::sdk::Random random(7, 2);
   int wrong = 0;
   for (std::uint64_t n = 0; n < 40000; ++n) {
@@ -69,7 +70,8 @@ TEST_CASE("square roots next to squares, where rounding is hardest, have the bit
   CHECK(wrong == 0);
 }
 
-TEST_CASE("zero, infinity and what has no root are as std::sqrt has them, alone and among others") {
+TEST_CASE(
+    "zero, infinity and what has no root shall be as std::sqrt has them, alone and among others") {
   constexpr double k_infinity = std::numeric_limits<double>::infinity();
   for (const double odd : {0.0, -0.0, std::numeric_limits<double>::denorm_min(), 1e-310,
                            std::numeric_limits<double>::max(), k_infinity, -1.0, -k_infinity,

@@ -36,7 +36,7 @@ class DustyAir {
   }
   void show(sdk::Sensor& sensor) {
     world_.time += world_.interval;
-    const contract::SceneColumns columns(world_);
+    const contract::SceneColumns columns(world_, sensor);
     sensor.observe(columns.view());
     const std::array<double, 2> diameters = {1e-6, 20e-6};
     const std::array<std::span<const float>, 2> spans = {dust_[0], dust_[1]};
@@ -101,7 +101,7 @@ TEST_CASE("exposure without a dust field shall be none") {
       load_sensor("exposure").make({{"points", std::vector<Vec3>{{0.01, 0.005, 0.02}}}});
   for (int s = 0; s < 5; ++s) {
     world.time += world.interval;
-    sensor->observe(contract::SceneColumns(world).view());
+    sensor->observe(contract::SceneColumns(world, *sensor).view());
   }
   CHECK(summary_of(*sensor)["point_1/dust"] == 0.0);
   CHECK_THROWS(load_sensor("exposure").make({{"points", std::vector<Vec3>{}}}));

@@ -156,8 +156,8 @@ TEST_CASE("a clump of sticky grains shall keep momentum and its bits on any numb
       CHECK(norm(g.position - two[n].position) == 0.0);
       CHECK(norm(g.velocity - two[n].velocity) == 0.0);
     }
-    // What fine grains give to coarse ones acts one step later: that much may be on the way.
-    CHECK(norm(momentum - before) < 1e-6 * scale);
+    // All that fine grains give to coarse ones has arrived at the end of a coarse step.
+    CHECK(norm(momentum - before) < 1e-13 * scale);
   }
 }
 

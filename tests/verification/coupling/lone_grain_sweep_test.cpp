@@ -38,7 +38,7 @@ std::string of_places(double diameter, double ratio, const test::TestFluid& flui
   return line + number.data();
 }
 
-TEST_CASE("the drag of a lone grain: sizes, cells, places") {
+TEST_CASE("a lone grain of any size, in any cell and place, shall feel the law's drag") {
   for (const test::TestFluid& fluid : {test::k_test_air, test::k_test_water}) {
     for (const double diameter : {20e-6, 100e-6, 300e-6, 1e-3, 3e-3}) {
       for (const double ratio : {0.05, 0.1, 0.25, 0.5, 1.0, 2.0}) {

@@ -18,7 +18,6 @@ constexpr double k_law = 0.03;
 
 constexpr sdk::Vec3 k_middle{0.5, 0.5, 0.5};
 constexpr sdk::Vec3 k_on_face{0.5, 0.5, 0.0};
-constexpr sdk::Vec3 k_corner{0.0, 0.0, 0.0};
 constexpr sdk::Vec3 k_some{0.21, 0.37, 0.68};
 
 TEST_CASE("a lone grain shall feel the law's drag in cells of any size, anywhere in one") {

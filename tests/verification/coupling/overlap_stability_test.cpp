@@ -47,7 +47,7 @@ double largest_growth(double h, int n, Shown shown, double b = 0.0) {
 
 }  // namespace
 
-TEST_CASE("dust that is shown the mean air of the last step is stable beside it") {
+TEST_CASE("dust that is shown the mean air of the last step shall be stable beside it") {
   for (const int sub_steps : {1, 2, 5, 0}) {
     for (const double h : {1.0, 1.5, 2.0, 3.0, 4.0}) {
       CAPTURE(sub_steps);
@@ -58,7 +58,7 @@ TEST_CASE("dust that is shown the mean air of the last step is stable beside it"
   }
 }
 
-TEST_CASE("so is dust whose drag grows faster than its slip") {
+TEST_CASE("dust whose drag grows faster than its slip shall be stable beside it, too") {
   for (const int sub_steps : {1, 2, 5, 0}) {
     for (const double b : {0.1, 0.3, 0.6}) {
       CAPTURE(sub_steps);
@@ -71,7 +71,7 @@ TEST_CASE("so is dust whose drag grows faster than its slip") {
   }
 }
 
-TEST_CASE("dust that is shown the air at the end of the step is not") {
+TEST_CASE("dust that is shown the air at the end of the step shall not be stable beside it") {
   CHECK(largest_growth(2.0, 2, Shown::end_of_step) == approx(1.02).epsilon(0.01));
   double most = 0.0;
   for (const double h : {1.0, 1.5, 2.0, 3.0, 4.0}) {
@@ -80,6 +80,6 @@ TEST_CASE("dust that is shown the air at the end of the step is not") {
   CHECK(most == approx(1.12).epsilon(0.01));
 }
 
-TEST_CASE("22 kg of dust per kg of air that relaxes five times in the step ring") {
+TEST_CASE("22 kg of dust per kg of air that relaxes five times in the step shall ring") {
   CHECK(growth(step_of(22.0, 5.0, 2.0, 5, Shown::mean_of_step)) == approx(0.95).epsilon(0.01));
 }

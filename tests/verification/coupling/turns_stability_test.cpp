@@ -47,7 +47,7 @@ double largest_growth(double b, int n, bool is_held, const Scheme& scheme) {
       [&](double a, double k) { return step_of(a, k, b, n, is_held, scheme); });
 }
 
-TEST_CASE("no error of grains and air that take turns grows, with the tangent of the drag") {
+TEST_CASE("no error of grains and air that take turns shall grow, with the tangent of the drag") {
   for (const bool is_held : {false, true}) {
     for (const double b : {0.0, 0.1, 0.3, 0.6, 1.0}) {
       for (const int sub_steps : {1, 2, 5, 0}) {
@@ -62,14 +62,15 @@ TEST_CASE("no error of grains and air that take turns grows, with the tangent of
   }
 }
 
-TEST_CASE("errors grow with the coefficient alone from an inertia of a tenth of the drag on") {
+TEST_CASE(
+    "errors shall grow with the coefficient alone from an inertia of a tenth of the drag on") {
   CHECK(largest_growth(0.05, 1, true, {0.6, false}) < 1.0 + 1e-7);
   CHECK(largest_growth(0.12, 1, true, {0.6, false}) > 1.05);
   CHECK(largest_growth(0.3, 1, true, {1.0, false}) < 1.0 + 1e-7);
   CHECK(largest_growth(0.4, 1, true, {1.0, false}) > 1.05);
 }
 
-TEST_CASE("with many sub-steps of the air 0.6 of the drag is too little to be implicit") {
+TEST_CASE("with many sub-steps of the air 0.6 of the drag shall be too little to be implicit") {
   CHECK(largest_growth(0.0, 0, true, {0.6, true}) > 1.05);
 }
 

@@ -24,7 +24,9 @@ constexpr double k_radius = 3e-4;
 constexpr double k_density = 2650;
 constexpr double k_mass = k_density * 4.0 / 3.0 * std::numbers::pi * k_radius * k_radius * k_radius;
 /// Part of what was turned over that an account may miss.
-constexpr double k_closure = 1e-4;
+constexpr double k_closure = 1e-7;
+/// The same where normals turn within a step: eq. (3) of docs/theory/energy.md misses that.
+constexpr double k_turning_closure = 1e-5;
 
 /// Grains on the plane z = 0, with an account.
 struct Audited {
@@ -169,7 +171,7 @@ TEST_CASE("drag shall take from a falling grain what gravity gives and its speed
   const double way = k_g / k_rate * time - speed / k_rate;
   CHECK(b.gravity == approx(k_mass * k_g * way).epsilon(1e-3));
   CHECK(b.fluid == approx(0.5 * k_mass * speed * speed - k_mass * k_g * way).epsilon(1e-3));
-  CHECK(std::abs(b.relative_error()) < k_closure);
+  CHECK(std::abs(b.relative_error()) < k_turning_closure);
 }
 
 namespace {
@@ -213,7 +215,7 @@ TEST_CASE(
                      << " rolling, kinetic " << (b.translation + b.rotation) / b.gravity
                      << ", elastic " << (b.elastic_normal + b.elastic_friction) / b.gravity);
     REQUIRE(b.gravity > 0.0);
-    CHECK(error[n] < k_closure);
+    CHECK(error[n] < k_turning_closure);
   }
   CHECK(error[1] < 0.5 * error[0] + 1e-6);
 }

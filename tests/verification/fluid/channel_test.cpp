@@ -67,7 +67,9 @@ TEST_CASE("V-POIS: flow between plates shall reach the parabola, second order") 
   }
 }
 
-TEST_CASE("V-COUE: flow between a resting and a moving plate with pressure gradient") {
+TEST_CASE(
+    "V-COUE: flow between a resting and a moving plate with pressure gradient shall be the "
+    "parabola") {
   const double gap = 0.01;
   const double mu = 5e-6;
   for (const double gradient : {-3.0, -1.5, 0.0, 1.5, 3.0}) {

@@ -107,7 +107,9 @@ Errors solve(int n, double end) {
 
 }  // namespace
 
-TEST_CASE("V-MMS: a manufactured flow with changing void fraction, order 1.9 for u, 1 for p") {
+TEST_CASE(
+    "V-MMS: a manufactured flow with changing void fraction shall be met to order 1.9 for u, 1 for "
+    "p") {
   Errors last;
   for (const int n : {16, 32, 64}) {
     const Errors e = solve(n, 1.0);

@@ -10,7 +10,8 @@
 namespace dust::test {
 
 TEST_CASE(
-    "V-ARRAY: Stokes drag of cubic arrays of spheres, 8 to 16 cells across (Zick and Homsy 1982)") {
+    "V-ARRAY: Stokes drag of cubic arrays of spheres, 8 to 16 cells across, shall be that of Zick "
+    "and Homsy (1982)") {
   struct Known {
     double solids, drag;
   };

@@ -76,7 +76,7 @@ double grid_resistance(double gap, bool is_pair) {
 
 }  // namespace
 
-TEST_CASE("V-FILM: the grid and the law of lubrication share the resistance of a film") {
+TEST_CASE("V-FILM: the grid and the law of lubrication shall share the resistance of a film") {
   for (const bool is_pair : {false, true}) {
     const double reach = is_pair ? 0.15 : 0.5;  // in cells
     for (const double gap : {1.0, 0.4, 0.2, 0.1, 0.05}) {

@@ -37,7 +37,9 @@ double array_torque(int cells, double solids) {
 
 // Spheres that turn all alike meet the fluid as those of a rotating frame do: in a periodic flow
 // its mean rotation is that of the spheres' share of the volume, turned the other way.
-TEST_CASE("V-SPIN: torque on a sphere that turns in a cubic array, 8 to 16 cells across") {
+TEST_CASE(
+    "V-SPIN: torque on a sphere that turns in a cubic array shall be right from 8 cells across "
+    "on") {
   for (const double solids : {0.027, 0.125}) {
     const double known = 1.0 / (1.0 - solids);
     const double edge = std::cbrt(std::numbers::pi / 6.0 / solids);

@@ -43,7 +43,9 @@ double added_mass(int across, double ratio, int steps) {
 
 // Stokes flow of a sudden start: 1/2, the viscous layer that has grown by then (Basset), and the
 // steady drag since.
-TEST_CASE("V-START: the fluid that comes along with a sphere which starts at once") {
+TEST_CASE(
+    "V-START: the fluid that comes along with a sphere which starts at once shall be right once "
+    "its layer is 1.4 cells thick") {
   for (const int across : {8, 16}) {
     const double layer = std::sqrt(2.0) / across;  // sqrt(nu t) of 1.4 cells, over the diameter
     const double known = 0.5 + 18.0 / std::sqrt(std::numbers::pi) * layer + 18.0 * layer * layer;

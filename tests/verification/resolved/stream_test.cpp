@@ -69,7 +69,9 @@ Stream stream_past(double reynolds, int across, double wide, double length) {
 // Drag coefficients of an unbounded stream: Clift, Grace, Weber (1978), Bubbles, Drops, and
 // Particles. The duct adds to them, less the wider it is and the farther before the sphere it
 // begins.
-TEST_CASE("V-STREAM: drag of a fixed sphere in a stream, and the eddy that grows behind it") {
+TEST_CASE(
+    "V-STREAM: drag of a fixed sphere in a stream, and the eddy that grows behind it, shall be the "
+    "measured ones") {
   const Stream slow = stream_past(20.0, 8, 10.0, 13.0);
   const Stream middle = stream_past(50.0, 8, 10.0, 13.0);
   const Stream fast = stream_past(100.0, 12, 8.0, 11.0);

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -212,6 +213,22 @@ enum class RowValue {
   total     ///< of all that has happened since the start
 };
 
+/// The surfaces that a sensor looks at, asked for once before a run: without them its figures are
+/// zeros that look like answers.
+struct SurfacesWanted {
+  struct Box {
+    Vec3 min, max;  ///< [m]
+  };
+  struct Stretch {
+    Vec3 middle;         ///< [m] on the surface
+    Vec3 along;          ///< [-] of length 1: the way that the surface runs, if it does
+    double reach = 0.0;  ///< [m] how far off the surface may be
+  };
+  std::optional<Box> wall_in;      ///< some wall has a part in it
+  std::optional<Stretch> stretch;  ///< of a belt, or of what else a load lies on
+  std::string_view rubbed_side;    ///< a side of the domain that the fluid goes along; "": none
+};
+
 /// Observes the world once per fluid step (grains-only runs: once per sampling interval), on const
 /// data, possibly at the same time as other sensors. Everything between calls is state.
 class Sensor : public Model {
@@ -242,6 +259,7 @@ class Sensor : public Model {
   [[nodiscard]] virtual bool wants_face_fluxes() const { return false; }
   /// Whether it has nothing to tell where there is no fluid.
   [[nodiscard]] virtual bool wants_fluid() const { return false; }
+  [[nodiscard]] virtual SurfacesWanted wanted_surfaces() const { return {}; }
 };
 
 }  // namespace dust::sdk

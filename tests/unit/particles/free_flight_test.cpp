@@ -87,7 +87,7 @@ TEST_CASE("many steps of a flight at once shall equal the same steps one by one"
       landing.step();
       one_by_one->synchronise();
     }
-    // The first step of a new grain is made awake; the rest of the first watch with it.
+    // The first step of a new grain is made alone; the rest of its first free flight at once.
     CHECK(at_once->report().free_flight_steps > 2 * 250);
     for (std::int64_t id = 0; id < 2; ++id) {
       const GrainState a = grain(*at_once, id);
@@ -117,7 +117,7 @@ TEST_CASE("no contact shall be missed by the grains that are left to fly") {
     for (int n = 0; n < 1500; ++n) {
       a.step();
       b.step();
-      every_step->synchronise();  // a watch of one step: everyone near anyone is looked at
+      every_step->synchronise();  // free flights of one step: everyone near anyone is looked at
     }
     CHECK(monitored->report().free_flight_steps > monitored->report().particle_steps / 4);
     CHECK(monitored->report().largest_overlap > 1e-3);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/air/air_passage.hpp"
+
+namespace dust::preflight {
+namespace {
+
+using scenario::Setup;
+using sdk::SideRule;
+
+/// [s] Flows that begin later are no flows of any run.
+constexpr double k_latest = 1e6;
+
+}  // namespace
+
+bool passes_air(const Setup& setup, std::size_t side, const sdk::BoundaryCondition* model) {
+  if (!setup.fluid || model == nullptr) return false;
+  if (model->rules().normal_velocity != SideRule::fixed) return true;
+  if (is_too_large(setup, side)) return model->needs_flow();
+  SideFaces faces(setup, side);
+  const auto is_passed_at = [&](double time) {
+    faces.ask(*model, time);
+    return faces.is_passed();
+  };
+  for (const double time : instants(setup)) {
+    if (is_passed_at(time)) return true;
+  }
+  // A run that is given a later end is to find the same answer.
+  for (double later = setup.time.end; later < k_latest; later *= 10.0) {
+    if (is_passed_at(later)) return true;
+  }
+  return false;
+}
+
+bool passes_air_everywhere(const Setup& setup, std::size_t side,
+                           const sdk::BoundaryCondition& model) {
+  if (model.rules().normal_velocity != SideRule::fixed) return true;
+  if (is_too_large(setup, side)) return false;
+  SideFaces faces(setup, side);
+  for (const double time : instants(setup)) {
+    faces.ask(model, time);
+    if (faces.is_passed_everywhere()) return true;
+  }
+  return false;
+}
+
+}  // namespace dust::preflight
