@@ -427,7 +427,7 @@ class Emitter final : public Guarded<sdk::Emitter> {
     if (!base::is_finite(r.begin)) {
       faults().refuse_answer("request (begin)", r.begin, "a time");
     }
-    if (r.end != r.end) faults().refuse_answer("request (end)", r.end, "a time, or infinity");
+    if (std::isnan(r.end)) faults().refuse_answer("request (end)", r.end, "a time, or infinity");
     return r;
   }
   [[nodiscard]] sdk::InsertionRule insertion_rule() const override {

@@ -25,7 +25,6 @@ class WallShear {
   /// [m/s] By piece, in the order in which they were added. `surfaces` as of Flow::surface_motions.
   void find(const fluid::FaceField& velocity, const std::vector<airborne::SurfaceMotion>& surfaces,
             std::vector<double>& friction_velocity) const;
-  [[nodiscard]] double viscosity() const { return viscosity_; }
 
  private:
   struct Probe {

@@ -43,6 +43,15 @@ void fill(const RunFolder& folder, double dust, const std::string& speed) {
   folder.write_h5({});
 }
 
+/// A run that has nothing to tell but its summary.
+void fill_with(const RunFolder& folder, const json& summary) {
+  folder.write("summary.json", summary.dump());
+  folder.write("scenario.yaml", "name: run\n");
+  folder.write("series.csv", "time [s]\n0\n");
+  folder.write("report.json", "{}");
+  folder.write_h5({});
+}
+
 std::string page_of(const RunFolder& first, const RunFolder& second) {
   const auto target = first.path() / "compare.html";
   write_comparison(compare_runs(first.path(), second.path()), first.path(), second.path(), target);
@@ -118,11 +127,7 @@ TEST_CASE("places of low pressure shall be compared where they are, whatever the
           {"depth", entry(places[n][2], "Pa", "depth_of_pressure")}};
     }
     summary["sensors"] = sensors;
-    folder.write("summary.json", summary.dump());
-    folder.write("scenario.yaml", "name: places\n");
-    folder.write("series.csv", "time [s]\n0\n");
-    folder.write("report.json", "{}");
-    folder.write_h5({});
+    fill_with(folder, summary);
   };
   const RunFolder first, second;
   write(first, {{0.1, 0.2, 9.0}, {0.5, 0.6, 8.0}});
@@ -150,11 +155,7 @@ TEST_CASE("a figure without an error shall say why, and less than an atom shall 
     figure["no_error"] = reason;
     figure["towards"] = "overview";
     summary["sensors"]["lip"]["lost"] = figure;
-    folder.write("summary.json", summary.dump());
-    folder.write("scenario.yaml", "name: reasons\n");
-    folder.write("series.csv", "time [s]\n0\n");
-    folder.write("report.json", "{}");
-    folder.write_h5({});
+    fill_with(folder, summary);
   };
   const RunFolder first, second;
   write(first, 1e-168, "");
