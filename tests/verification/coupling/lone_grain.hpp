@@ -104,6 +104,7 @@ struct IsolatedGrain {
   double tilt = 0.0;            ///< [rad] of the body's surface about x, the grain goes along z
   int box = 20;                 ///< cells of the fluid along each axis
   double cells_per_step = 0.3;  ///< way of the grain in a fluid step at most
+  double carried = 0.0;         ///< [m/s] along z of grain and fluid together, with Motion::held
 
   /// Of the drag, in the last third of the run; of the speed with Motion::free.
   struct Error {
@@ -112,12 +113,13 @@ struct IsolatedGrain {
     double mean = 0.0;
   };
   [[nodiscard]] Error error() const;
-
- private:
-  [[nodiscard]] double cell() const { return diameter / ratio; }
+  /// [m/s], its slip unless it is free
   [[nodiscard]] double terminal() const {
     return isolated_slip(diameter, fluid, isolated_weight(diameter, fluid));
   }
+
+ private:
+  [[nodiscard]] double cell() const { return diameter / ratio; }
   [[nodiscard]] double duration() const;
   [[nodiscard]] World::Choice choice() const;
   [[nodiscard]] TwoWay::Sides sides() const;
@@ -158,7 +160,7 @@ inline World::Choice IsolatedGrain::choice() const {
   c.viscosity = fluid.viscosity;
   c.disturbance_correction = disturbance_correction;
   c.overlaps = overlaps;
-  const double fastest = terminal() * duration() / (cells_per_step * cell());
+  const double fastest = (terminal() + carried) * duration() / (cells_per_step * cell());
   c.fluid_step = duration() / std::max(40.0, std::ceil(fastest));
   return c;
 }
@@ -191,9 +193,10 @@ inline IsolatedGrain::Error IsolatedGrain::error() const {
   if (floor > 0.0) at = foot() + beside * cell() * normal();
   sdk::Vec3 velocity;
   const bool is_in_stream = motion == Motion::held && beside == 0.0;
-  if (motion != Motion::free && !is_in_stream) velocity[d] = -speed;
+  if (motion != Motion::free) velocity[d] = is_in_stream ? carried : -speed;
   grains.add(at, velocity, diameter);
-  if (is_in_stream) run.solver->set_velocity([&](sdk::Vec3) { return sdk::Vec3{0, 0, speed}; });
+  if (is_in_stream)
+    run.solver->set_velocity([&](sdk::Vec3) { return sdk::Vec3{0, 0, carried + speed}; });
   const sdk::Vec3 gravity{0, 0, -isolated_weight(diameter, fluid) * grains.velocity[3]};
   const int steps = static_cast<int>(std::lround(duration() / step));
   Error error;
@@ -218,8 +221,8 @@ inline IsolatedGrain::Error IsolatedGrain::error() const {
         grains.move(step / refreshes, gravity);
       } else {
         grains.hold(step / refreshes);
-        if (motion == Motion::towed) {
-          grains.position[static_cast<std::size_t>(d)] -= speed * step / refreshes;
+        if (motion == Motion::towed || is_in_stream) {
+          grains.position[static_cast<std::size_t>(d)] += velocity[d] * step / refreshes;
         }
       }
       force += (grains.impulse[static_cast<std::size_t>(d)] - before) / step;
@@ -248,7 +251,7 @@ inline IsolatedGrain::Error IsolatedGrain::error() const {
     error.largest = std::max(error.largest, found);
     error.mean += (found - error.mean) / ++count;
     // A held grain sees the same until the end.
-    if (motion == Motion::held) n = std::max(n, steps - 2);
+    if (motion == Motion::held && carried == 0.0) n = std::max(n, steps - 2);
   }
   return error;
 }

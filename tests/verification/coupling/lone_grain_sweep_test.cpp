@@ -53,4 +53,24 @@ TEST_CASE("a lone grain of any size, in any cell and place, shall feel the law's
   }
 }
 
+TEST_CASE("a lone grain that a stream carries shall show its error in large cells and small") {
+  for (const test::TestFluid& fluid : {test::k_test_air, test::k_test_water}) {
+    for (const double diameter : {20e-6, 100e-6, 1e-3, 3e-3}) {
+      for (const double ratio : {0.25, 0.5, 1.0, 2.0}) {
+        std::string line;
+        for (const double times : {1.0, 3.0, 10.0}) {
+          IsolatedGrain grain{diameter, ratio, fluid};
+          grain.carried = times * grain.terminal();
+          std::array<char, 40> number{};
+          std::snprintf(number.data(), number.size(), " %+6.1f", 100.0 * grain.error().mean);
+          line += number.data();
+        }
+        MESSAGE(std::string(fluid.name)
+                << ", " << 1e6 * diameter << " um, D/dx " << ratio
+                << ", carried at 1, 3, 10 times its slip:" << line << " % of the drag");
+      }
+    }
+  }
+}
+
 }  // namespace

@@ -75,6 +75,23 @@ TEST_CASE("a lone grain shall feel the law's drag while it goes through the cell
   }
 }
 
+TEST_CASE("a lone grain of half a cell that a stream carries shall feel the drag of its slip") {
+  // Larger ones do not: docs/theory/own_disturbance.md has their figures.
+  for (const test::TestFluid& fluid : {k_test_air, k_test_water}) {
+    for (const double diameter : {20e-6, 100e-6, 1e-3}) {
+      for (const double ratio : {0.25, 0.5}) {
+        IsolatedGrain grain{diameter, ratio, fluid};
+        grain.carried = 3.0 * grain.terminal();
+        const IsolatedGrain::Error error = grain.error();
+        MESSAGE(std::string(fluid.name) << ", " << 1e6 * diameter << " um, D/dx " << ratio << ": "
+                                        << 100.0 * error.least << " to " << 100.0 * error.largest
+                                        << ", mean " << 100.0 * error.mean << " % of the drag");
+        CHECK(std::abs(error.mean) < 0.01);
+      }
+    }
+  }
+}
+
 TEST_CASE(
     "a lone grain shall fall at the law's speed, whatever the set and the order of the nodes") {
   for (const double ratio : {0.25, 0.5, 1.0}) {
