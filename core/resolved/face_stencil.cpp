@@ -5,6 +5,15 @@
 
 namespace dust::resolved {
 
+bool is_in_domain(const fluid::Grid& grid, sdk::Vec3 place) {
+  for (int d = 0; d < 3; ++d) {
+    if (grid.is_periodic[static_cast<std::size_t>(d)]) continue;
+    const double from_low = place[d] - grid.origin[d];
+    if (from_low < 0.0 || from_low > grid.count[d] * grid.spacing[d]) return false;
+  }
+  return true;
+}
+
 FaceStencil stencil_at(const fluid::Grid& grid, int d, sdk::Vec3 place) {
   FaceStencil stencil;
   for (int e = 0; e < 3; ++e) {

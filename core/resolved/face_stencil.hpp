@@ -19,6 +19,8 @@ using FaceStencil = std::array<RomaPoints, 3>;
 [[nodiscard]] inline double face_place(const fluid::Grid& grid, int d, int e, double place) {
   return (place - grid.origin[e]) / grid.spacing[e] - (d == e ? 0.0 : 0.5);
 }
+/// Or beyond a periodic side, which leads round.
+[[nodiscard]] bool is_in_domain(const fluid::Grid& grid, sdk::Vec3 place);
 [[nodiscard]] FaceStencil stencil_at(const fluid::Grid& grid, int d, sdk::Vec3 place);
 
 /// Where faces of one component stand in a padded array: periodic sides lead round, beyond others

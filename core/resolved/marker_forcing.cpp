@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "resolved/marker_forcing.hpp"
 
+#include "resolved/surrounding_spin.hpp"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -39,7 +41,8 @@ std::shared_ptr<const MarkerLattice> MarkerForcing::lattice_of(double diameter) 
   return lattice;
 }
 
-void MarkerForcing::begin_step(std::vector<Sphere> spheres, std::vector<Forces> forces) {
+void MarkerForcing::begin_step(std::vector<Sphere> spheres, std::vector<Forces> forces,
+                               const fluid::FaceField& velocity) {
   spheres_ = std::move(spheres);
   marked_.resize(spheres_.size());
   for (std::size_t s = 0; s < spheres_.size(); ++s) {
@@ -53,6 +56,17 @@ void MarkerForcing::begin_step(std::vector<Sphere> spheres, std::vector<Forces> 
     for (auto& stencils : m.stencils) stencils.resize(m.forces.size());
   }
   for (auto& component : mean_.component) std::fill(component.begin(), component.end(), 0.0);
+  find_turning(velocity);
+}
+
+/// docs/theory/resolved.md, eq. (6).
+void MarkerForcing::find_turning(const fluid::FaceField& velocity) {
+  tbb::parallel_for(std::size_t{0}, spheres_.size(), [&](std::size_t n) {
+    Marked& m = marked_[n];
+    const Sphere& sphere = spheres_[n];
+    const Vec3 spin = sphere.rotation - surrounding_spin(grid_, velocity, *m.lattice, sphere);
+    m.turning_ahead = (m.lattice->turning_gain - 1.0) * spin;
+  });
 }
 
 std::size_t MarkerForcing::markers() const {
@@ -83,22 +97,12 @@ void MarkerForcing::each_face(const fluid::ForcedFluid& fluid, const Take& take)
   });
 }
 
-/// A sphere turns as a whole, and the fluid inside with it.
+/// The sphere turns as a whole, and the fluid inside with its markers.
 Vec3 MarkerForcing::surface_velocity(std::size_t sphere, std::size_t marker) const {
   const MarkerLattice& lattice = *marked_[sphere].lattice;
   const Sphere& s = spheres_[sphere];
-  return s.velocity +
-         cross(lattice.turning_gain * s.rotation, lattice.radius * lattice.direction[marker]);
-}
-
-/// Or beyond a periodic side, which leads round.
-bool MarkerForcing::is_in_domain(Vec3 place) const {
-  for (int d = 0; d < 3; ++d) {
-    if (grid_.is_periodic[static_cast<std::size_t>(d)]) continue;
-    const double from_low = place[d] - grid_.origin[d];
-    if (from_low < 0.0 || from_low > grid_.count[d] * grid_.spacing[d]) return false;
-  }
-  return true;
+  return s.velocity + cross(s.rotation + marked_[sphere].turning_ahead,
+                            lattice.radius * lattice.direction[marker]);
 }
 
 void MarkerForcing::place_markers(double time) {
@@ -107,7 +111,8 @@ void MarkerForcing::place_markers(double time) {
     Marked& m = marked_[s];
     const Vec3 centre = spheres_[s].position_after(time);
     for (std::size_t l = 0; l < m.forces.size(); ++l) {
-      m.has_left[l] = is_in_domain(centre + m.lattice->radius * m.lattice->direction[l]) ? 0 : 1;
+      const Vec3 place = centre + m.lattice->radius * m.lattice->direction[l];
+      m.has_left[l] = is_in_domain(grid_, place) ? 0 : 1;
       if (m.has_left[l] != 0) m.forces[l] = {};
     }
   }

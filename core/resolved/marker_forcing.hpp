@@ -29,8 +29,10 @@ class MarkerForcing final : public fluid::VelocityForcing {
   using Forces = std::vector<sdk::Vec3>;
 
   /// For the coming fluid step: the spheres in the order of their ids, and the forces at their
-  /// markers at the end of the step before; empty where there was none.
-  void begin_step(std::vector<Sphere> spheres, std::vector<Forces> forces);
+  /// markers at the end of the step before; empty where there was none. `velocity` of the fluid
+  /// with filled halo.
+  void begin_step(std::vector<Sphere> spheres, std::vector<Forces> forces,
+                  const fluid::FaceField& velocity);
 
   const fluid::FaceField& add_to(const fluid::FaceField& given, const fluid::ForcedFluid& fluid,
                                  const fluid::ForcedPart& part) override;
@@ -43,10 +45,8 @@ class MarkerForcing final : public fluid::VelocityForcing {
   /// What the markers of sphere `n` gave the fluid in this fluid step.
   [[nodiscard]] const Impulse& given(std::size_t n) const { return marked_[n].given; }
   [[nodiscard]] const Forces& forces(std::size_t n) const { return marked_[n].forces; }
-  /// How much faster its markers turn, and the fluid inside with them.
-  [[nodiscard]] double turning_gain(std::size_t n) const {
-    return marked_[n].lattice->turning_gain;
-  }
+  /// [rad/s] How much faster its markers turn, and the fluid inside with them.
+  [[nodiscard]] sdk::Vec3 turning_ahead(std::size_t n) const { return marked_[n].turning_ahead; }
   [[nodiscard]] std::size_t markers() const;
   /// [m/s] Largest difference between the fluid, as the markers see it where they stood last, and
   /// the surface there; `velocity` with filled halo.
@@ -62,11 +62,12 @@ class MarkerForcing final : public fluid::VelocityForcing {
     std::array<std::vector<FaceStencil>, 3> stencils;  ///< per component, where they stand
     std::array<FacePatch, 3> patches;                  ///< [N] per face
     Impulse given;
+    sdk::Vec3 turning_ahead;  ///< [rad/s] of the sphere
   };
 
   [[nodiscard]] std::shared_ptr<const MarkerLattice> lattice_of(double diameter);
+  void find_turning(const fluid::FaceField& velocity);
   void place_markers(double time);
-  [[nodiscard]] bool is_in_domain(sdk::Vec3 place) const;
   void find_change(const fluid::FaceField& velocity, double step);
   void spread(Forces Marked::*forces);
   /// Calls take(component, padded index, force [N]) for the faces that were spread to.

@@ -12,8 +12,8 @@ namespace dust::resolved {
 /// sphere itself: docs/theory/resolved.md, eq. (2), found with cubic arrays.
 [[nodiscard]] double retraction(double cells);
 
-/// How much faster the markers turn than the sphere, so that the torque is the sphere's: they stand
-/// where drag is right, and a torque goes with the third power of the radius:
+/// How much faster the markers turn than the sphere in fluid at rest, so that the torque is the
+/// sphere's: they stand where drag is right, and a torque goes with the third power of the radius:
 /// docs/theory/resolved.md, eq. (6), found with cubic arrays.
 [[nodiscard]] double turning_gain(double cells);
 

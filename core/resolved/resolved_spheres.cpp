@@ -93,7 +93,7 @@ void ResolvedSpheres::begin_step(const GrainRows& grains, const fluid::FaceField
     least = least == 0.0 ? cells : std::min(least, cells);
   }
   states_ = std::move(states);
-  forcing_.begin_step(std::move(spheres), std::move(forces));
+  forcing_.begin_step(std::move(spheres), std::move(forces), velocity);
   report_.spheres = static_cast<std::int64_t>(states_.size());
   report_.markers = static_cast<std::int64_t>(forcing_.markers());
 }
@@ -103,11 +103,13 @@ void ResolvedSpheres::evaluate(const fluid::FaceField& velocity) {
   for (std::size_t n = 0; n < states_.size(); ++n) {
     State& state = states_[n];
     const Sphere& sphere = forcing_.spheres()[n];
-    const Impulse inner = resolved::inner_momentum(grid_, velocity, around_.density, sphere,
-                                                   sphere.position_after(around_.step));
+    Impulse inner = resolved::inner_momentum(grid_, velocity, around_.density, sphere,
+                                             sphere.position_after(around_.step));
+    // As if it turned with the sphere, not with the markers.
+    inner.angular -= 0.4 * around_.density * sdk::sphere_volume(2.0 * sphere.radius) *
+                     sphere.radius * sphere.radius * forcing_.turning_ahead(n);
     state.due = inner;
     state.due -= state.inner;
-    state.due.angular = (1.0 / forcing_.turning_gain(n)) * state.due.angular;
     state.due -= forcing_.given(n);
     state.due.linear += around_.step * sdk::sphere_volume(2.0 * sphere.radius) * around_.buoyancy;
     state.due.linear += state.deferred;
