@@ -200,7 +200,9 @@ void LiberationStage::give_to_air(bool is_by_wind) {
       const double of_one = columns_.released[place(q, n)];
       if (of_one == 0.0) continue;
       const double load = columns_.load[place(q, n)];
-      if (!(of_one > 0.0 && of_one <= load)) fail(row, count * of_one, count * load);
+      if (!(of_one > 0.0 && of_one <= load * (1.0 + sdk::LiberationLaw::k_rounding))) {
+        fail(row, count * of_one, count * load);
+      }
       // All of them together; not more than there is by rounding.
       const double mass = std::min(count * of_one, particles_.dust_load(row)[n]);
       if (cell < 0) cell = dust_.cell_with_gas({x[0], x[1], x[2]});
@@ -238,10 +240,14 @@ void LiberationStage::share_by_cause(std::size_t row, std::size_t n, double mass
 }
 
 void LiberationStage::fail(std::size_t row, double released, double load) const {
+  // As many as show what differs.
+  constexpr int k_few = 6, k_all = 17;
+  const int digits =
+      base::digits_text(load, k_few) == base::digits_text(released, k_few) ? k_all : k_few;
   throw sdk::ModelError("liberation law '" + law_name_ + "': grain " +
                         std::to_string(particles_.rows().id[row]) + " carries " +
-                        base::digits_text(load, 6) + " kg of dust and is to lose " +
-                        base::digits_text(released, 6) +
+                        base::digits_text(load, digits) + " kg of dust and is to lose " +
+                        base::digits_text(released, digits) +
                         " kg: what comes off lies between 0 and the load; mend the law");
 }
 

@@ -259,6 +259,7 @@ struct Liberation final : LiberationLaw {
   enum Fault {
     none,
     too_much,
+    too_much_by_rounding,
     negative,
     from_nothing,
     less_from_more,
@@ -281,6 +282,7 @@ struct Liberation final : LiberationLaw {
       if (fault == from_nothing) x += 1e-9;
       double share = fault == by_step ? x / (1.0 + x) : -std::expm1(-x);
       if (fault == too_much) share *= 1.5;
+      if (fault == too_much_by_rounding && x > 1.0) share = 1.0 + 1e-15;
       if (fault == negative) share = -share;
       if (fault == idle) share = 0.0;
       for (std::size_t k = 0; k < g.classes; ++k) {
@@ -313,6 +315,7 @@ TEST_CASE("a liberation law that is wrong shall be told by the rule it breaks") 
   }
   CHECK(seen.broken(rule_results_on<L>(L::too_much), "no more than there is").find(" kg of ") !=
         std::string::npos);
+  CHECK(Seen().broken(rule_results_on<L>(L::too_much_by_rounding), "no more than").empty());
   CHECK(seen.broken(rule_results_on<L>(L::negative), "nothing negative").find("-") == 0);
   CHECK(seen.broken(rule_results_on<L>(L::from_nothing), "nothing has happened")
             .find("that nothing has touched") != std::string::npos);

@@ -30,6 +30,7 @@ struct DustyGrains {
   const double* load = nullptr;      ///< [kg] of dust on the grain, by class
   const double* fresh = nullptr;     ///< [kg] of dust that it came with, by class
   double* released = nullptr;        ///< [kg] out, by class: at least 0, at most the load
+                                     ///< (LiberationLaw::k_rounding)
 
   /// [kg] of dust of all classes that grain q came with.
   [[nodiscard]] double fresh_sum(std::size_t q) const {
@@ -66,6 +67,9 @@ struct GrainWind {
 class LiberationLaw : public Model {
  public:
   static constexpr const char* k_kind = "liberation";
+  /// Of the load, by which `released` may lie above it: shares of a load need not sum to 1 in their
+  /// last digits. All of the load comes off then; more than that ends the run.
+  static constexpr double k_rounding = 1e-12;
 
   /// Called once before any batch; the arrays live as long as the law.
   virtual void prepare(const DustProperties& dust) = 0;

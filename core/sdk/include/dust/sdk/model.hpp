@@ -16,8 +16,9 @@ class Model {
  public:
   virtual ~Model() = default;
 
-  /// A model with state between calls saves it here and restores it in `load`, so that a resumed
-  /// run gives the same bits. Models without state leave both alone.
+  /// An emitter or sensor with state between calls saves it here and restores it in `load`, so that
+  /// a resumed run gives the same bits. Models of other kinds are never asked for either: what they
+  /// give is a function of what they are shown.
   virtual void save(ArchiveWriter&) const {}
   virtual void load(ArchiveReader&) {}
 };
