@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/error.hpp"
 #include "registry/registry.hpp"
 
 #include <cstdint>
@@ -37,8 +38,20 @@ struct Options {
   std::uint64_t (*allocations)() = nullptr;
 };
 
+/// A model that could not be made, for want of values of its parameters.
+class NotTested : public base::UserError {
+ public:
+  NotTested(const sdk::ModelInfo& info, const std::string& why)
+      : base::UserError("error: " + info.kind + "/" + info.name + ": " + why), why_(why) {}
+  /// What is wanting, and what to write.
+  [[nodiscard]] const std::string& why() const { return why_; }
+
+ private:
+  std::string why_;
+};
+
 /// Every rule of the model's kind, in a fixed order. Never throws for what the model does wrong.
-/// Throws base::UserError when required parameters can be neither guessed nor were given.
+/// Throws NotTested when required parameters can be neither guessed nor were given.
 std::vector<RuleResult> check_model(const registry::Entry& entry, const Options& options = {});
 
 }  // namespace dust::contract

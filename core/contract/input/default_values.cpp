@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contract/input/default_values.hpp"
 
-#include "base/error.hpp"
+#include "contract/contract.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,7 +137,8 @@ std::optional<Value> guess(const Parameter& p, int attempt, int list, bool is_fi
 
 struct Guess {
   std::vector<Value> values;
-  std::string missing;  ///< names for which nothing can be guessed
+  std::string
+      missing;  ///< " --set NAME=VALUE (what it is)" of those that nothing can be guessed for
 };
 Guess guess_all(const sdk::ModelInfo& info, const std::map<std::string, Value>& given, int attempt,
                 int filled) {
@@ -151,7 +152,10 @@ Guess guess_all(const sdk::ModelInfo& info, const std::map<std::string, Value>& 
     const auto one = given.find(p.name);
     const auto value = one != given.end() ? std::optional<Value>(one->second)
                                           : guess(p, attempt, may_be_empty ? list : 0, is_filled);
-    if (!value) all.missing += (all.missing.empty() ? "" : ", ") + p.name;
+    if (!value) {
+      all.missing += " --set " + p.name + "=VALUE";
+      if (!p.sentence.empty()) all.missing += " (" + p.sentence + ")";
+    }
     all.values.push_back(value.value_or(Value{}));
   }
   return all;
@@ -191,9 +195,7 @@ std::vector<Value> default_values(const sdk::ModelInfo& info, const sdk::ModelFa
     if (accepted && n >= k_shown) break;
     const Guess one = guess_all(info, given, n % k_attempts, n / k_attempts - 1);
     if (!one.missing.empty()) {
-      throw base::UserError("error: " + info.kind + "/" + info.name +
-                            ": no value can be guessed for " + one.missing +
-                            "; give it: --set PARAMETER=VALUE");
+      throw NotTested(info, "no value can be guessed; write" + one.missing);
     }
     try {
       if (!factory(one.values)) {
@@ -208,9 +210,8 @@ std::vector<Value> default_values(const sdk::ModelInfo& info, const sdk::ModelFa
     if (!accepted) accepted = one.values;
   }
   if (accepted) return *accepted;
-  throw base::UserError("error: " + info.kind + "/" + info.name +
-                        ": accepts no values that were tried (" + refusal +
-                        "); give some: --set PARAMETER=VALUE");
+  throw NotTested(info, "it accepts no values that were tried (" + refusal +
+                            "); give some: --set PARAMETER=VALUE");
 }
 
 std::vector<Value> other_values(const Parameter& p, const Value& value) {

@@ -11,7 +11,7 @@
 namespace dust::contract {
 
 /// Values with which the factory makes a model: those given, the defaults, and for the others
-/// typical values of their dimension within their range. Throws base::UserError that names the
+/// typical values of their dimension within their range. Throws NotTested that names the
 /// parameters to give when none of the attempts is accepted. Of those accepted the first is taken
 /// with which the model `is_usable` in the standard scene (a box that lies on a side), else the
 /// first.

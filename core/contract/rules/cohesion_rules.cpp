@@ -14,9 +14,7 @@ namespace {
 std::unique_ptr<sdk::CohesionLaw> make_law(const Maker& make, const Units& units = {}) {
   auto law = make_as<sdk::CohesionLaw>(make, units);
   law->prepare(material(false, units), material(true, units));
-  require(law->history_size() >= 0 && law->history_size() <= 16,
-          "it asks for " + std::to_string(law->history_size()) +
-              " history columns; the core keeps at most 16");
+  require_history(law->history_size());
   return law;
 }
 

@@ -23,9 +23,7 @@ std::unique_ptr<sdk::ContactLaw> make_law(const Maker& make, const Units& units 
                                           bool is_swapped = false) {
   auto law = make_as<sdk::ContactLaw>(make, units);
   law->prepare(material(is_swapped, units), material(!is_swapped, units));
-  require(law->history_size() >= 0 && law->history_size() <= 16,
-          "it asks for " + std::to_string(law->history_size()) +
-              " history columns; the core keeps at most 16");
+  require_history(law->history_size());
   return law;
 }
 

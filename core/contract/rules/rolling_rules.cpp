@@ -22,8 +22,7 @@ std::unique_ptr<sdk::RollingLaw> make_law(const Maker& make, const Units& units 
                                           bool is_swapped = false) {
   auto law = make_as<sdk::RollingLaw>(make, units);
   law->prepare(material(is_swapped, units), material(!is_swapped, units));
-  require(law->history_size() >= 0 && law->history_size() <= 12,
-          "it asks for " + std::to_string(law->history_size()) + " history columns");
+  require_history(law->history_size());
   require(law->couple_column() + 3 <= law->history_size() || law->couple_column() < 0,
           "its couple would stand in columns " + std::to_string(law->couple_column()) +
               " and the next two of " + std::to_string(law->history_size()));

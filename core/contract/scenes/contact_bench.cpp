@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "contract/scenes/contact_bench.hpp"
 
+#include "contact/batch.hpp"
+#include "contract/rule_runner.hpp"
 #include "dust/sdk/random.hpp"
 #include "dust/sdk/sphere.hpp"
 
@@ -48,6 +50,13 @@ constexpr const char* k_names[] = {"overlap",
                                    "inverse_mass_j"};
 
 }  // namespace
+
+void require_history(int columns) {
+  require(columns >= 0 && columns <= contact::k_max_history,
+          "it keeps " + std::to_string(columns) + " numbers per contact; expected: 0 to " +
+              std::to_string(contact::k_max_history) +
+              ", which it shares with the other laws of the contact");
+}
 
 std::vector<Touch> standard_contacts(double range, int look) {
   std::vector<Touch> contacts;

@@ -20,6 +20,9 @@ inline sdk::MaterialProperties material(bool is_second, const Units& units) {
   return {2500.0 * density, 1e7 * pressure, 0.3};
 }
 
+/// Throws a Violation for a number of history columns that the core has no room for.
+void require_history(int columns);
+
 /// One contact as the core would show it, in SI.
 struct Touch {
   double overlap = 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A rule that no model can break is none: one wrong model per rule, and what is said of it.
 #include "contract/models/wrong_models.hpp"
+#include "contact/batch.hpp"
 #include "dust/sdk/cohesion_law.hpp"
 #include "dust/sdk/plugin.hpp"
 #include "dust/sdk/sphere.hpp"
@@ -298,11 +299,12 @@ struct Sticky final : sdk::CohesionLaw {
   };
   Fault fault;
   double young = 1.0;
-  explicit Sticky(Fault f) : fault(f) {}
+  int columns = 1;
+  explicit Sticky(Fault f, int c = 1) : fault(f), columns(c) {}
   void prepare(const sdk::MaterialProperties& i, const sdk::MaterialProperties& j) override {
     young = sdk::effective_young_modulus(i, j);
   }
-  [[nodiscard]] int history_size() const override { return 1; }
+  [[nodiscard]] int history_size() const override { return columns; }
   [[nodiscard]] static double strength(double radius) { return 0.3 * radius; }
   void evaluate(const sdk::CohesionBatch& b) const override {
     for (std::size_t q = 0; q < b.count; ++q) {
@@ -331,13 +333,21 @@ struct Sticky final : sdk::CohesionLaw {
   }
 };
 
-std::vector<contract::RuleResult> sticky(Sticky::Fault fault) {
-  return rule_results_of(described("cohesion", {}), [fault](std::span<const sdk::Value>) {
-    return std::make_unique<Sticky>(fault);
+std::vector<contract::RuleResult> sticky(Sticky::Fault fault, int columns = 1) {
+  return rule_results_of(described("cohesion", {}), [=](std::span<const sdk::Value>) {
+    return std::make_unique<Sticky>(fault, columns);
   });
 }
 
 }  // namespace
+
+TEST_CASE("a law shall keep as many numbers per contact as the core has room for, and no more") {
+  constexpr int k_room = contact::k_max_history;
+  CHECK(Seen().broken(sticky(Sticky::none, k_room), "finite").empty());
+  CHECK(Seen().broken(sticky(Sticky::none, k_room + 1), "finite") ==
+        "it keeps " + std::to_string(k_room + 1) + " numbers per contact; expected: 0 to " +
+            std::to_string(k_room) + ", which it shares with the other laws of the contact");
+}
 
 TEST_CASE("a cohesive law that is wrong shall be told by the rule it breaks") {
   Seen seen;
@@ -507,9 +517,9 @@ TEST_CASE("parameters that cannot be guessed shall be asked for, unknown ones re
   s.text(&P::file, "file", "A table.");
   const registry::Entry entry{
       described("drag", s.build()), [](std::span<const sdk::Value>) { return nullptr; }, {}};
-  CHECK_THROWS_WITH(contract::check_model(entry),
-                    "error: drag/wrong: no value can be guessed for file; give it: --set "
-                    "PARAMETER=VALUE");
+  CHECK_THROWS_WITH(
+      contract::check_model(entry),
+      "error: drag/wrong: no value can be guessed; write --set file=VALUE (A table.)");
   contract::Options options;
   options.given["fiel"] = std::string("x");
   CHECK_THROWS_WITH(contract::check_model(entry, options),
