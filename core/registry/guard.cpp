@@ -509,10 +509,7 @@ class Motion final : public Guarded<sdk::Motion> {
   }
   [[nodiscard]] sdk::RigidPose pose(double time) const override {
     const sdk::RigidPose p = ask("pose", "a place at every time", &sdk::Motion::pose, time);
-    const double sum = p.shift.x + p.shift.y + p.shift.z + p.pivot.x + p.pivot.y + p.pivot.z +
-                       p.axis.x + p.axis.y + p.axis.z + p.angle + p.velocity.x + p.velocity.y +
-                       p.velocity.z + p.angular_velocity;
-    if (!base::is_finite(sum)) faults().refuse_number("pose", sum, 0, 1, {{"time", &time}});
+    check(p, time);
     constexpr double k_rounding = 1e-9;
     if ((p.angle != 0.0 || p.angular_velocity != 0.0) &&
         std::abs(norm(p.axis) - 1.0) > k_rounding) {
@@ -522,6 +519,24 @@ class Motion final : public Guarded<sdk::Motion> {
   }
   [[nodiscard]] double largest_angular_velocity() const override {
     return not_negative("largest_angular_velocity", &sdk::Motion::largest_angular_velocity);
+  }
+
+ private:
+  /// Each number by itself: a sum would hide which of them it is.
+  void check(const sdk::RigidPose& p, double time) const {
+    const std::pair<const char*, sdk::Vec3> vectors[] = {
+        {"shift", p.shift}, {"pivot", p.pivot}, {"axis", p.axis}, {"velocity", p.velocity}};
+    for (const auto& [name, vector] : vectors) {
+      for (int d = 0; d < 3; ++d) {
+        if (base::is_finite(vector[d])) continue;
+        refuse(std::string(name) + "." + "xyz"[d], vector[d], time);
+      }
+    }
+    if (!base::is_finite(p.angle)) refuse("angle", p.angle, time);
+    if (!base::is_finite(p.angular_velocity)) refuse("angular_velocity", p.angular_velocity, time);
+  }
+  [[noreturn]] void refuse(const std::string& name, double value, double time) const {
+    faults().refuse_number(("pose (" + name + ")").c_str(), value, 0, 1, {{"time", &time}});
   }
 };
 

@@ -228,10 +228,11 @@ struct Motion final : Trial<sdk::Motion> {
     sdk::RigidPose p;
     p.angle = deed(what, 2 * time);
     p.axis = axis;
+    p.pivot = pivot;
     return p;
   }
   double largest_angular_velocity() const override { return 4.0; }
-  sdk::Vec3 axis{0, 0, 1};
+  sdk::Vec3 axis{0, 0, 1}, pivot{};
 };
 
 struct Sensor final : Trial<sdk::Sensor> {
@@ -492,8 +493,14 @@ TEST_CASE("a guarded emitter, motion and sensor shall answer as themselves") {
   CHECK(motion->pose(2.0).angle == 4.0);
   CHECK(motion->largest_angular_velocity() == 4.0);
   CHECK(said([&] { static_cast<void>(guard<Motion>()->pose(k_infinite)); }) ==
-        "motion/trial (/x/trial.so) gives pose = inf in row 1 of 1 of a batch (time = inf); "
-        "expected: a finite number");
+        "motion/trial (/x/trial.so) gives pose (angle) = inf in row 1 of 1 of a batch (time = "
+        "inf); expected: a finite number");
+  CHECK(said([&] {
+          const auto set = [](Motion& m) { m.pivot = {0.0, k_nan, 0.0}; };
+          static_cast<void>(guard_with<Motion>(set)->pose(0.5));
+        }) ==
+        "motion/trial (/x/trial.so) gives pose (pivot.y) = nan in row 1 of 1 of a batch (time = "
+        "0.5); expected: a finite number");
 
   const auto sensor = guard<Sensor>();
   sdk::WorldView world;
