@@ -23,13 +23,16 @@ constexpr std::pair<int, const char*> k_crashes[] = {
     {SIGABRT, "SIGABRT, its own code gave up"}};
 
 constinit thread_local const Asking* g_asking = nullptr;
-constinit std::atomic_flag g_is_crashing;
+constinit std::atomic_flag g_has_spoken;
 
 /// All that a handler reads has its place from the beginning: it may not allocate.
 constexpr std::size_t k_room = 4096;
 char g_libraries[k_room];
 constinit std::atomic<std::size_t> g_libraries_length = 0;
 constinit std::atomic<bool> g_has_more_libraries = false;
+/// As the two above were before the last one was noted.
+constinit std::size_t g_length_before = 0;
+constinit bool g_had_more_before = false;
 char g_line[3 * k_room];
 /// Of the first thread, for a stack that has run over.
 char g_stack[16 * k_room];
@@ -50,9 +53,31 @@ class FixedText {
   std::size_t length_ = 0;
 };
 
+/// What was asked when it happened, and who may have been at work.
+void add_circumstances(FixedText& text) {
+  const std::size_t libraries = g_libraries_length;
+  if (g_asking != nullptr) {
+    text.add(" while ");
+    text.add(g_asking->who());
+    text.add(g_asking->question());
+    text.add(g_asking->subject());
+  } else if (libraries > 0) {
+    text.add(" while no model of others was asked");
+  }
+  if (libraries > 0) {
+    text.add("; loaded plugins that are not the engine's own: ");
+    text.add({g_libraries, libraries});
+    if (g_has_more_libraries) text.add(" and others");
+  } else {
+    text.add(
+        "; no plugins but the engine's own are loaded: please report it, 'engine report-bug' "
+        "gathers what helps");
+  }
+}
+
 void on_crash(int signal, siginfo_t* info, void*) {
   // One faulty model crashes many threads at once: the first one's line, then the end of them all.
-  if (g_is_crashing.test_and_set()) {
+  if (!may_speak_last()) {
     for (;;) pause();
   }
   // What another process sends is no crash.
@@ -75,6 +100,8 @@ Asking::~Asking() { g_asking = outer_; }
 
 void note_foreign_library(const std::filesystem::path& file) {
   const std::size_t length = g_libraries_length;
+  g_length_before = length;
+  g_had_more_before = g_has_more_libraries;
   const std::string text = (length > 0 ? ", " : "") + file.string();
   if (length + text.size() > k_room) {
     g_has_more_libraries = true;
@@ -84,6 +111,13 @@ void note_foreign_library(const std::filesystem::path& file) {
   g_libraries_length = length + text.size();
 }
 
+void withdraw_noted_library() {
+  g_libraries_length = g_length_before;
+  g_has_more_libraries = g_had_more_before;
+}
+
+bool may_speak_last() noexcept { return !g_has_spoken.test_and_set(); }
+
 std::size_t write_crash_text(int signal, std::span<char> room) noexcept {
   if (room.empty()) return 0;
   FixedText text(room.first(room.size() - 1));  // the end of the line has its place
@@ -92,24 +126,16 @@ std::size_t write_crash_text(int signal, std::span<char> room) noexcept {
     if (crash == signal) text.add(name);
   }
   text.add(")");
-  const std::size_t libraries = g_libraries_length;
-  if (g_asking != nullptr) {
-    text.add(" while ");
-    text.add(g_asking->who());
-    text.add(g_asking->question());
-    text.add(g_asking->subject());
-  } else if (libraries > 0) {
-    text.add(" while no model of others was asked");
-  }
-  if (libraries > 0) {
-    text.add("; loaded plugins that are not the engine's own: ");
-    text.add({g_libraries, libraries});
-    if (g_has_more_libraries) text.add(" and others");
-  } else {
-    text.add(
-        "; no plugins but the engine's own are loaded: please report it, 'engine report-bug' "
-        "gathers what helps");
-  }
+  add_circumstances(text);
+  room[text.length()] = '\n';
+  return text.length() + 1;
+}
+
+std::size_t write_exit_text(std::span<char> room) noexcept {
+  if (room.empty()) return 0;
+  FixedText text(room.first(room.size() - 1));
+  text.add("error: ended by a call of exit() that is not the engine's");
+  add_circumstances(text);
   room[text.length()] = '\n';
   return text.length() + 1;
 }

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "registry/crash_notice.hpp"
+#include "registry/exit_notice.hpp"
 
 #include <boost/dll/shared_library.hpp>
 
@@ -44,14 +45,34 @@ std::string loader_message(std::string text) {
   return text;
 }
 
+/// What helps against what the loader of the system said; empty where that says it.
+std::string loader_remedy(const std::string& message) {
+  if (message.find("undefined symbol") != std::string::npos) {
+    return ": it uses a function that neither it nor a library it was linked with has; link it "
+           "with the one that does (target_link_libraries), and write every function that it "
+           "declares";
+  }
+  if (message.find("cannot open shared object file") != std::string::npos) {
+    return ": it was linked with that library, which is not on this machine or not where libraries "
+           "are looked for; install it, or name its folder in LD_LIBRARY_PATH";
+  }
+  return {};
+}
+
+/// Notes the library; the caller withdraws one that is the engine's own.
 boost::dll::shared_library open(const fs::path& file) {
   const std::string name = file.string();
   const Asking asking(name.c_str(), " was loaded");
+  note_foreign_library(file);
   try {
     // All symbols now: a missing one is told here and not in the middle of a run.
-    return boost::dll::shared_library(file, boost::dll::load_mode::rtld_now);
+    boost::dll::shared_library library(file, boost::dll::load_mode::rtld_now);
+    renew_exit_report();
+    return library;
   } catch (const boost::dll::fs::system_error& problem) {
-    refuse(file, "cannot be loaded: " + loader_message(problem.what()));
+    withdraw_noted_library();
+    const std::string message = loader_message(problem.what());
+    refuse(file, "cannot be loaded: " + message + loader_remedy(message));
   } catch (const std::exception& problem) {
     refuse(file, std::string("throws while it is loaded: ") + problem.what());
   } catch (...) {
@@ -183,7 +204,7 @@ std::vector<Entry> load_library(const fs::path& file) {
   }
   open_libraries().push_back(library);
   const bool is_shipped = library.has("dust_shipped");
-  if (!is_shipped) note_foreign_library(file);
+  if (is_shipped) withdraw_noted_library();
   compare(file, library.get<const sdk::Handshake>("dust_handshake"));
   Collector collector(file, is_shipped);
   const std::string name = file.string();

@@ -35,8 +35,12 @@ std::vector<fs::path> libraries_in(const fs::path& folder) {
   std::vector<fs::path> files;
   fs::directory_iterator entries(folder, code);
   if (code) {
+    std::error_code none;
+    const std::string remedy = fs::is_regular_file(folder, none)
+                                   ? ": name the folder that holds the library, not the file"
+                                   : "";
     throw base::PluginError(folder.string() +
-                            ": error: cannot look for plugins here: " + code.message());
+                            ": error: cannot look for plugins here: " + code.message() + remedy);
   }
   for (const auto& entry : entries) {
     if (entry.path().extension() == ".so") files.push_back(entry.path());
@@ -140,12 +144,7 @@ std::vector<fs::path> Registry::search_path(const std::vector<fs::path>& from_co
 void Registry::add(Entry entry) {
   const auto at = std::lower_bound(impl_->entries.begin(), impl_->entries.end(), entry, is_before);
   if (at != impl_->entries.end() && !is_before(entry, *at)) {
-    // The engine's own is not the one to change.
-    const Entry& other = entry.is_shipped && !at->is_shipped ? *at : entry;
-    const Entry& kept = &other == &entry ? *at : entry;
-    throw base::PluginError(file_text(other.file) + ": error: offers " + entry.info.kind + "/" +
-                            entry.info.name + ", which " + file_text(kept.file) +
-                            " offers already: remove or rename one");
+    throw base::PluginError(taken_name_line(entry, *at));
   }
   impl_->entries.insert(at, std::move(entry));
 }
@@ -197,6 +196,22 @@ std::unique_ptr<sdk::Model> make_model(const Entry& entry, std::span<const sdk::
 std::string error_prefix(const scenario::Mark& where, const std::string& path) {
   const std::string place = scenario::place(where);
   return (place.empty() ? "" : place + ": ") + "error: " + path + ": ";
+}
+
+std::string taken_name_line(const Entry& entry, const Entry& other) {
+  // The engine's own is not the one to change.
+  const bool is_other_wrong = entry.is_shipped && !other.is_shipped;
+  const Entry& wrong = is_other_wrong ? other : entry;
+  const Entry& kept = is_other_wrong ? entry : other;
+  const std::string offers =
+      file_text(wrong.file) + ": error: offers " + entry.info.kind + "/" + entry.info.name;
+  if (kept.is_shipped && !wrong.is_shipped) {
+    return offers + ", which the engine has already (" + file_text(kept.file) +
+           "): choose another name for the model";
+  }
+  return offers + ", which " + file_text(kept.file) +
+         " offers already: take one of the two libraries out of the folders where plugins are "
+         "looked for, or choose another name for one of the models";
 }
 
 void ask_at_place(const scenario::ModelChoice& choice, const std::function<void()>& question) {

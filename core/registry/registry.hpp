@@ -66,6 +66,9 @@ std::unique_ptr<sdk::Model> make_model(const Entry& entry, std::span<const sdk::
 /// "file:line:column: error: path: ", as far as they are known.
 std::string error_prefix(const scenario::Mark& where, const std::string& path);
 
+/// The line for a model whose name another one has; asks to change what is the user's to change.
+std::string taken_name_line(const Entry& entry, const Entry& other);
+
 /// Asks something of the chosen model before the run; what it throws becomes a base::UserError at
 /// the model's place, as in Registry::create.
 void ask_at_place(const scenario::ModelChoice& choice, const std::function<void()>& question);

@@ -8,6 +8,7 @@
 #include "io/scenario_leaves.hpp"
 #include "io/stored_state.hpp"
 #include "preflight/reader.hpp"
+#include "registry/exit_notice.hpp"
 #include "registry/guard_report.hpp"
 #include "run/branch/branch.hpp"
 #include "run/branch/used_models.hpp"
@@ -168,6 +169,7 @@ int run_scenario(const RunOptions& options) {
   branch.reset();  // the other run's particles
   output.open();
   const fs::path folder = output.path();
+  const registry::RunUnderway underway(folder / "checkpoint.h5");
   Recorder recorder(*simulation, folder, {read.resolved_yaml, inputs}, facts.models,
                     read.start.keep_every);
   RunLoop run(*simulation, recorder);

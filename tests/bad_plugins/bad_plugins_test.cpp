@@ -83,7 +83,16 @@ TEST_CASE("a library without entry point shall be refused by the symbol it lacks
 TEST_CASE("a library with a missing symbol shall be refused with the loader's words") {
   check_one_line("missing_symbol",
                  "cannot be loaded: " + (k_folder / "missing_symbol/missing_symbol.so").string() +
-                     ": undefined symbol: _Z21an_undefined_functionv");
+                     ": undefined symbol: _Z21an_undefined_functionv: it uses a function that "
+                     "neither it nor a library it was linked with has; link it with the one that "
+                     "does (target_link_libraries), and write every function that it declares");
+}
+TEST_CASE("a library whose own library is not found shall be refused with what helps") {
+  check_one_line("missing_library",
+                 "cannot be loaded: libbad_absent.so: cannot open shared object file: No such file "
+                 "or directory: it was linked with that library, which is not on this machine or "
+                 "not where libraries are looked for; install it, or name its folder in "
+                 "LD_LIBRARY_PATH");
 }
 TEST_CASE("a plugin that throws while it registers shall be refused with what it said") {
   check_one_line("throws_on_register",
@@ -134,7 +143,24 @@ TEST_CASE("two plugins of one name shall be refused with both files") {
     CHECK(problem.lines() == std::vector<std::string>{(k_folder / "twice/twice.so").string() +
                                                       ": error: offers drag/constant, which " +
                                                       (k_folder / "good/good.so").string() +
-                                                      " offers already: remove or rename one"});
+                                                      " offers already: take one of the two "
+                                                      "libraries out of the folders where plugins "
+                                                      "are looked for, or choose another name for "
+                                                      "one of the models"});
+  }
+}
+
+TEST_CASE("a library given in place of its folder shall be answered with the folder") {
+  const fs::path file = k_folder / "good" / "good.so";
+  Registry registry;
+  try {
+    registry.load({file});
+    FAIL("accepted");
+  } catch (const dust::base::PluginError& problem) {
+    CHECK(problem.lines() ==
+          std::vector<std::string>{file.string() +
+                                   ": error: cannot look for plugins here: Not a directory: name "
+                                   "the folder that holds the library, not the file"});
   }
 }
 

@@ -4,6 +4,7 @@
 #include "support/engine.hpp"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include <csignal>
 #include <filesystem>
@@ -76,6 +77,86 @@ TEST_CASE("a plugin that crashes shall end the engine by its signal, with what i
   check_crash(run, SIGSEGV, "SIGSEGV, memory that it may not use", "null_pointer",
               "was asked for evaluate");
 #endif
+}
+
+TEST_CASE("a library that crashes while it is opened shall be named as the engine's own is not") {
+  for (const char* library : {"crashes_on_load", "throws_on_load"}) {
+    const std::string file = k_folder / library / (std::string(library) + ".so");
+    const auto check = engine(with_drag("check", library, "constant"));
+    INFO(check.err);
+    CHECK(check.status == 128 + SIGABRT);
+    CHECK(check.err.ends_with("error: crashed (SIGABRT, its own code gave up) while " + file +
+                              " was loaded; loaded plugins that are not the engine's own: " + file +
+                              "\n"));
+  }
+}
+
+TEST_CASE("a plugin that ends the program shall fail the run, with what it was asked") {
+  const std::string file = k_folder / "ends_program/ends_program.so";
+  const std::string begin = "error: ended by a call of exit() that is not the engine's while ";
+  const std::string loaded = "; loaded plugins that are not the engine's own: ";
+  const auto line = [&](const std::string& law, const std::string& asked) {
+    return begin + "drag/" + law + " (" + file + ") " + asked + loaded + file + "\n";
+  };
+  for (const std::string law : {"leaves", "leaves_quickly"}) {
+    const TemporaryFolder folder;
+    auto arguments = with_drag("run", "ends_program", law);
+    arguments.insert(arguments.end(), {"-o", folder / "run", "--quiet"});
+    const auto run = engine(arguments);
+    INFO(run.err);
+    CHECK(run.status == 1);
+    CHECK(run.err.ends_with(line(law, "was asked for evaluate") +
+                            "error: the last good checkpoint is " +
+                            (folder / "run/checkpoint.h5").string() +
+                            ": --resume goes on from it once the plugin is mended\n"));
+  }
+  const auto check = engine(with_drag("check", "ends_program", "leaves_early"));
+  CHECK(check.status == 2);
+  CHECK(check.err.ends_with(line("leaves_early", "was made")));
+  CHECK(engine({"test-plugin", file}).status == 2);
+  const std::string loads = k_folder / "ends_on_load/ends_on_load.so";
+  const auto opened = engine(with_drag("check", "ends_on_load", "constant"));
+  CHECK(opened.status == 2);
+  CHECK(opened.err == begin + loads + " was loaded" + loaded + loads + "\n");
+}
+
+TEST_CASE("a plugin that could end the program and does not shall leave the engine's own end") {
+  const auto check = engine({"check", k_scenario, "--plugin-path", k_folder / "ends_program"});
+  INFO(check.err);
+  CHECK(check.status == 0);
+  CHECK(engine({"--help"}).status == 0);
+  CHECK(engine({"check", k_folder / "no.yaml"}).status == 2);
+  const TemporaryFolder folder;
+  const fs::path out = folder / "run";
+  const auto run =
+      dust::test::engine_interrupted({"run", k_scenario, "--plugin-path", k_folder / "ends_program",
+                                      "--set", "time.end=100 s", "-o", out, "--quiet"},
+                                     SIGTERM, out / "series.csv", 3);
+  INFO(run.err);
+  CHECK(run.status == 128 + SIGTERM);
+  CHECK(run.err.find("exit()") == std::string::npos);
+}
+
+TEST_CASE("a liberation law shall have the load by rounding more, and no more than that") {
+  const std::string bounce = DUST_SOURCE "/tests/scenario/dusty_bounce.yaml";
+  const auto run = [&](const std::string& excess, const fs::path& out) {
+    return engine({"run", bounce, "--plugin-path", k_folder / "overdraws", "-o", out, "--quiet",
+                   "--set", "dust.liberation={model: overdraws, excess: " + excess + "}"});
+  };
+  const TemporaryFolder folder;
+  const auto rounded = run("1e-13", folder / "rounded");
+  CHECK_MESSAGE(rounded.status == 0, rounded.err);
+  const auto summary =
+      nlohmann::json::parse(dust::test::read_file(folder / "rounded/summary.json"));
+  for (const auto& [name, of_class] : summary["dust_on_grains"]["classes"].items()) {
+    CHECK(of_class["set_free_kg"] == of_class["entered_kg"]);
+  }
+  const auto more = run("1e-11", folder / "more");
+  INFO(more.err);
+  CHECK(more.status == 1);
+  CHECK(more.err.find("liberation law 'overdraws': grain ") != std::string::npos);
+  CHECK(more.err.find(" kg of dust and is to lose ") != std::string::npos);
+  CHECK(more.err.find(" kg: what comes off lies between 0 and the load") != std::string::npos);
 }
 
 TEST_CASE("a plugin that throws in a batch shall end the run with kind, name, file and words") {
@@ -187,14 +268,17 @@ TEST_CASE("a sensor that throws after the last step shall fail the run with its 
         std::string::npos);
 }
 
-TEST_CASE("a plugin under a shipped model's name shall be refused by its test") {
+TEST_CASE("a plugin under a shipped model's name shall be refused, by its test too") {
   const std::string file = k_folder / "shipped_name/shipped_name.so";
   const auto tested = engine({"test-plugin", file});
   INFO(tested.err);
   CHECK(tested.status == 2);
   CHECK(tested.err.starts_with(file +
                                ": error: offers drag/gidaspow, which the engine has already ("));
-  CHECK(tested.err.ends_with("): choose another name\n"));
+  CHECK(tested.err.ends_with("): choose another name for the model\n"));
+  const auto check = engine(with_drag("check", "shipped_name", "gidaspow"));
+  CHECK(check.status == 2);
+  CHECK(check.err == tested.err);
   CHECK(engine({"test-plugin", k_folder / "good/good.so"}).status == 1);  // it says no source
 }
 
@@ -205,7 +289,9 @@ TEST_CASE("a model that nobody offers shall be refused with names and folders se
   CHECK(check.err.starts_with("--set drag.model: error: drag.model: unknown drag model 'rootles'"));
   CHECK(check.err.find("(drag models: abraham, beetstra, constant, ") != std::string::npos);
   CHECK(check.err.find("; plugins were looked for in " + (k_folder / "good").string() + ", " +
-                       fs::path(DUST_TEST_PLUGINS).string()) != std::string::npos);
+                       fs::path(DUST_TEST_PLUGINS).string() +
+                       " (--plugin-path and DUST_PLUGIN_PATH name more folders)") !=
+        std::string::npos);
 }
 
 TEST_CASE("every bad library shall be refused before anything is written") {

@@ -68,9 +68,7 @@ void refuse_shipped_names(const std::vector<registry::Entry>& entries,
   for (const registry::Entry& entry : entries) {
     const registry::Entry* other = found.find(entry.info.kind, entry.info.name);
     if (other == nullptr || !other->is_shipped || entry.is_shipped) continue;
-    lines += (lines.empty() ? "" : "\n") + file.string() + ": error: offers " + entry.info.kind +
-             "/" + entry.info.name + ", which the engine has already (" + other->file.string() +
-             "): choose another name";
+    lines += (lines.empty() ? "" : "\n") + registry::taken_name_line(entry, *other);
   }
   if (!lines.empty()) throw base::UserError(lines);
 }

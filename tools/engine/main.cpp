@@ -6,6 +6,7 @@
 #include "memory/huge_pages.hpp"
 #include "program/program.hpp"
 #include "registry/crash_notice.hpp"
+#include "registry/exit_notice.hpp"
 #include "registry/guard_report.hpp"
 #include "scenario/text/suggest.hpp"
 
@@ -111,6 +112,7 @@ int engine_main(int argc, char** argv) {
   complete_arguments(app, arguments);
   if (!arguments.empty() && arguments.front() == "run") engine::ask_for_huge_pages(argv);
   registry::report_crashes();
+  registry::report_exits();
   std::reverse(arguments.begin(), arguments.end());
   try {
     app.parse(arguments);
@@ -120,10 +122,8 @@ int engine_main(int argc, char** argv) {
   return with_output_checked(app, status);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  io::leave_hdf5_open_at_exit();
+/// Prints on stderr what ends it.
+int reported_main(int argc, char** argv) {
   try {
     return engine_main(argc, argv);
   } catch (const base::UserError& problem) {
@@ -140,4 +140,13 @@ int main(int argc, char** argv) {
     std::cerr << "error: " << problem.what() << '\n';
     return k_failed;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  io::leave_hdf5_open_at_exit();
+  const int status = reported_main(argc, argv);
+  registry::note_own_end();
+  return status;
 }

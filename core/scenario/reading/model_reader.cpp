@@ -53,7 +53,8 @@ std::string searched(const registry::Registry& registry, const std::string& kind
   if (kind == "shape" || registry.folders().empty()) return "";
   std::vector<std::string> folders;
   for (const auto& folder : registry.folders()) folders.push_back(folder.string());
-  return "; plugins were looked for in " + listed(folders);
+  return "; plugins were looked for in " + listed(folders) +
+         " (--plugin-path and DUST_PLUGIN_PATH name more folders)";
 }
 
 /// "drag model", "shape", "motion".
