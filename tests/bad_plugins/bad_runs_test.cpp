@@ -159,6 +159,25 @@ TEST_CASE("a liberation law shall have the load by rounding more, and no more th
   CHECK(more.err.find(" kg: what comes off lies between 0 and the load") != std::string::npos);
 }
 
+TEST_CASE("a model whose values cannot be guessed shall be told, and the others tested") {
+  const std::string file = k_folder / "needs_values/needs_values.so";
+  const std::string why = "no value can be guessed; write --set table=VALUE (File of factors.)";
+  const auto tested = engine({"test-plugin", file});
+  INFO(tested.out);
+  CHECK(tested.status == 2);
+  CHECK(tested.out.find("drag/tabled 1.0 (" + file + ")\n  NOT TESTED  " + why + "\n") !=
+        std::string::npos);
+  CHECK(tested.out.find("drag/smooth 1.0 (" + file + ")\n  pass  ") != std::string::npos);
+  CHECK(tested.out.ends_with("\nall rules are kept; 1 of 2 models not tested\n"));
+  const auto given = engine({"test-plugin", file, "--set", "table=ab"});
+  INFO(given.out);
+  CHECK(given.out.find("NOT TESTED") == std::string::npos);
+  const auto json = nlohmann::json::parse(engine({"test-plugin", file, "--json"}).out);
+  CHECK(json.at(0)["not_tested"] == why);
+  CHECK(json.at(0)["rules"].empty());
+  CHECK_FALSE(json.at(1).contains("not_tested"));
+}
+
 TEST_CASE("a plugin that throws in a batch shall end the run with kind, name, file and words") {
   check_run("throws_in_batch", "brittle",
             "throws in evaluate: the table ends at Re = 100; expected: a factor for every grain of "

@@ -97,8 +97,8 @@ void print_table(const registry::Entry& entry, const std::vector<RuleResult>& re
   }
 }
 
-nlohmann::ordered_json as_json(const registry::Entry& entry,
-                               const std::vector<RuleResult>& results) {
+nlohmann::ordered_json as_json(const registry::Entry& entry, const std::vector<RuleResult>& results,
+                               const std::string& not_tested) {
   nlohmann::ordered_json json = {{"kind", entry.info.kind},
                                  {"name", entry.info.name},
                                  {"version", entry.info.version},
@@ -108,8 +108,66 @@ nlohmann::ordered_json as_json(const registry::Entry& entry,
     const char* verdict = f.verdict == Verdict::fail ? "fail" : word(f.verdict);
     json["rules"].push_back({{"rule", f.rule}, {"verdict", verdict}, {"why", f.why}});
   }
+  if (!not_tested.empty()) json["not_tested"] = not_tested;
   return json;
 }
+
+/// Tests one model after the other and prints what came of it.
+class Session {
+ public:
+  explicit Session(bool is_json) : is_json_(is_json) {}
+
+  void test(const registry::Entry& entry, const contract::Options& options) {
+    ++models_;
+    std::vector<RuleResult> results;
+    std::string not_tested;
+    try {
+      results = contract::check_model(entry, options);
+    } catch (const contract::NotTested& problem) {
+      not_tested = problem.why();
+      ++not_tested_;
+    }
+    failed_ += static_cast<std::size_t>(
+        std::count_if(results.begin(), results.end(),
+                      [](const RuleResult& f) { return f.verdict == Verdict::fail; }));
+    if (is_json_) {
+      json_.push_back(as_json(entry, results, not_tested));
+      return;
+    }
+    print_table(entry, results);
+    if (!not_tested.empty()) std::cout << "  NOT TESTED  " << not_tested << '\n';
+    // A model that crashes shall not take along what is known of those before it.
+    std::cout << std::flush;
+  }
+
+  void print_end() const {
+    if (is_json_) {
+      std::cout << json_.dump(2) << '\n';
+      return;
+    }
+    std::string text = failed_ == 0   ? "all rules are kept"
+                       : failed_ == 1 ? "1 rule is broken"
+                                      : std::to_string(failed_) + " rules are broken";
+    if (not_tested_ == models_) {
+      text = "nothing was tested";
+    } else if (not_tested_ > 0) {
+      text += "; " + std::to_string(not_tested_) + " of " + std::to_string(models_) +
+              " models not tested";
+    }
+    std::cout << text << '\n';
+  }
+
+  /// Of the program; a broken rule is worse than a model that is not known yet.
+  [[nodiscard]] int status() const {
+    if (failed_ > 0) return 1;
+    return not_tested_ > 0 ? 2 : 0;
+  }
+
+ private:
+  bool is_json_;
+  std::size_t models_ = 0, failed_ = 0, not_tested_ = 0;
+  nlohmann::ordered_json json_ = nlohmann::ordered_json::array();
+};
 
 }  // namespace
 
@@ -132,7 +190,9 @@ void add_test_plugin(CLI::App& app, int& status) {
   command->footer(
       "Each rule is passed, noted (could not be judged, or worth knowing) or failed, with the "
       "reason.\n"
-      "Exit status: 0 no rule failed, 1 a rule failed, 2 the library or a value cannot be used.\n"
+      "A model whose parameters cannot be guessed is not tested; the others are.\n"
+      "Exit status: 0 no rule failed, 1 a rule failed, 2 the library or a value cannot be used, or "
+      "a model\nwas not tested.\n"
       "Examples:\n"
       "  engine test-plugin build/my_drag.so\n"
       "  engine test-plugin build/my_contact.so --set stiffness='1000 N/m' --set restitution=0.5");
@@ -148,28 +208,10 @@ void add_test_plugin(CLI::App& app, int& status) {
     for (const std::string& setting : arguments->settings) {
       read_setting(setting, entries, options);
     }
-    std::size_t failed = 0;
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (std::size_t n = 0; n < entries.size(); ++n) {
-      const auto results = contract::check_model(entries[n], options[n]);
-      failed += static_cast<std::size_t>(
-          std::count_if(results.begin(), results.end(),
-                        [](const RuleResult& f) { return f.verdict == Verdict::fail; }));
-      if (arguments->as_json) {
-        json.push_back(as_json(entries[n], results));
-      } else {
-        print_table(entries[n], results);
-      }
-    }
-    if (arguments->as_json) {
-      std::cout << json.dump(2) << '\n';
-    } else {
-      std::cout << (failed == 0 ? "all rules are kept"
-                                : std::to_string(failed) +
-                                      (failed == 1 ? " rule is" : " rules are") + " broken")
-                << '\n';
-    }
-    status = failed == 0 ? 0 : 1;
+    Session session(arguments->as_json);
+    for (std::size_t n = 0; n < entries.size(); ++n) session.test(entries[n], options[n]);
+    session.print_end();
+    status = session.status();
   });
 }
 
