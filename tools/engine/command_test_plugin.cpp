@@ -53,8 +53,7 @@ void read_setting(const std::string& setting, const std::vector<registry::Entry>
 
 /// Throws base::UserError where a model has the name of a shipped one: the engine would refuse to
 /// load it beside that one.
-void refuse_shipped_names(const std::vector<registry::Entry>& entries,
-                          const std::filesystem::path& file) {
+void refuse_shipped_names(const std::vector<registry::Entry>& entries) {
   // The shipped ones first: what is refused then is the newcomer.
   auto folders = registry::Registry::search_path({});
   std::reverse(folders.begin(), folders.end());
@@ -200,9 +199,8 @@ void add_test_plugin(CLI::App& app, int& status) {
     if (!std::filesystem::is_regular_file(arguments->file)) {
       throw base::UserError(arguments->file + ": error: no such file");
     }
-    const auto file = std::filesystem::absolute(arguments->file);
-    const auto entries = registry::load_library(file);
-    refuse_shipped_names(entries, file);
+    const auto entries = registry::load_library(std::filesystem::absolute(arguments->file));
+    refuse_shipped_names(entries);
     std::vector<contract::Options> options(entries.size());
     for (contract::Options& o : options) o.allocations = allocations_so_far;
     for (const std::string& setting : arguments->settings) {
