@@ -40,6 +40,22 @@ void check_sides(const scenario::ReadResult& read, const registry::Registry& reg
   check_wall_shear(setup, sides.models(), registry, diagnostics);
 }
 
+void check_sensors(const scenario::Setup& setup, const ParticleModels& models,
+                   const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
+  const sdk::WorldView world = empty_world(setup, models.class_diameters);
+  for (const scenario::SensorSpec& spec : setup.sensors) {
+    const registry::Entry* entry = registry.find(spec.model.kind, spec.model.name);
+    if (entry == nullptr) continue;
+    const sdk::ParameterSchema& parameters = entry->info.parameters;
+    check_sensor_places(setup, models.bodies, spec, parameters, diagnostics);
+    // One that is refused already need not be asked.
+    if (diagnostics.has_error_below(spec.model.path)) continue;
+    const auto sensor = registry.create_as<sdk::Sensor>(spec.model);
+    check_sensor_surfaces(setup, models.bodies, spec, *sensor, diagnostics);
+    check_first_look(setup, spec, parameters, *sensor, world, diagnostics);
+  }
+}
+
 /// Where bodies, emitters, openings and sensors are, and how far laws reach.
 void check_places(const scenario::ReadResult& read, const registry::Registry& registry,
                   scenario::Diagnostics& diagnostics) {
@@ -67,9 +83,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_cohesion(read.setup, models, registry, diagnostics);
   check_softness(read.setup, models, registry, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);
-  check_sensor_places(read.setup, models.bodies, registry, diagnostics);
-  check_sensor_surfaces(read.setup, models.bodies, registry, diagnostics);
-  check_first_looks(read.setup, models.class_diameters, registry, diagnostics);
+  check_sensors(read.setup, models, registry, diagnostics);
 }
 
 /// Looks at what was read without errors.

@@ -41,25 +41,20 @@ sdk::WorldView empty_world(const scenario::Setup& setup, std::span<const double>
   return world;
 }
 
-void check_first_looks(const scenario::Setup& setup, std::span<const double> class_diameters,
-                       const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
-  const sdk::WorldView world = empty_world(setup, class_diameters);
-  for (const scenario::SensorSpec& spec : setup.sensors) {
-    // One that is refused already need not be asked.
-    if (diagnostics.has_error_below(spec.model.path)) continue;
-    const auto sensor = registry.create_as<sdk::Sensor>(spec.model);
-    if (!setup.fluid && sensor->wants_fluid()) {
-      diagnostics.warning(spec.model.where, spec.model.path +
-                                                ": looks at the fluid, and fluid is none: it has "
-                                                "nothing to tell; take it out, or declare a fluid");
-    } else if (const auto* entry = registry.find(spec.model.kind, spec.model.name)) {
-      check_blocks(setup, spec, entry->info.parameters, diagnostics);
-    }
-    try {
-      sensor->observe(world);
-    } catch (const std::exception& problem) {
-      diagnostics.error(spec.model.where, spec.model.path + ": " + problem.what());
-    }
+void check_first_look(const scenario::Setup& setup, const scenario::SensorSpec& spec,
+                      const sdk::ParameterSchema& parameters, sdk::Sensor& sensor,
+                      const sdk::WorldView& world, scenario::Diagnostics& diagnostics) {
+  if (!setup.fluid && sensor.wants_fluid()) {
+    diagnostics.warning(spec.model.where, spec.model.path +
+                                              ": looks at the fluid, and fluid is none: it has "
+                                              "nothing to tell; take it out, or declare a fluid");
+  } else {
+    check_blocks(setup, spec, parameters, diagnostics);
+  }
+  try {
+    sensor.observe(world);
+  } catch (const std::exception& problem) {
+    diagnostics.error(spec.model.where, spec.model.path + ": " + problem.what());
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/parameter_schema.hpp"
 #include "dust/sdk/sensor.hpp"
-#include "registry/registry.hpp"
 #include "scenario/diagnostics.hpp"
 #include "setup/setup.hpp"
 
@@ -14,9 +14,11 @@ namespace dust::preflight {
 /// stay the caller's.
 sdk::WorldView empty_world(const scenario::Setup& setup, std::span<const double> class_diameters);
 
-/// Lets each sensor look at it once: those that cannot do with this gravity or this domain say so
-/// in their first look, which would end the run.
-void check_first_looks(const scenario::Setup& setup, std::span<const double> class_diameters,
-                       const registry::Registry& registry, scenario::Diagnostics& diagnostics);
+/// Warns of a sensor that looks at a fluid that is not there, or whose means have no error. Lets it
+/// look at the empty `world` once: one that cannot do with this gravity or this domain says so in
+/// its first look, which would end the run.
+void check_first_look(const scenario::Setup& setup, const scenario::SensorSpec& spec,
+                      const sdk::ParameterSchema& parameters, sdk::Sensor& sensor,
+                      const sdk::WorldView& world, scenario::Diagnostics& diagnostics);
 
 }  // namespace dust::preflight

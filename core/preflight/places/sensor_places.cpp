@@ -166,12 +166,9 @@ class Places {
 }  // namespace
 
 void check_sensor_places(const scenario::Setup& setup, const bodies::BodySet& bodies,
-                         const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
-  for (const scenario::SensorSpec& sensor : setup.sensors) {
-    const registry::Entry* entry = registry.find("sensor", sensor.model.name);
-    if (entry == nullptr) continue;
-    Places(setup, bodies, sensor, entry->info.parameters).check(diagnostics);
-  }
+                         const scenario::SensorSpec& spec, const sdk::ParameterSchema& parameters,
+                         scenario::Diagnostics& diagnostics) {
+  Places(setup, bodies, spec, parameters).check(diagnostics);
 }
 
 }  // namespace dust::preflight

@@ -120,14 +120,12 @@ class Surfaces {
 }  // namespace
 
 void check_sensor_surfaces(const scenario::Setup& setup, const bodies::BodySet& bodies,
-                           const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
-  for (const scenario::SensorSpec& sensor : setup.sensors) {
-    if (diagnostics.has_error_below(sensor.model.path)) continue;
-    const auto wanted = registry.create_as<sdk::Sensor>(sensor.model)->wanted_surfaces();
-    const Surfaces surfaces(setup, bodies, sensor, diagnostics);
-    if (wanted.wall_in) surfaces.check(*wanted.wall_in);
-    if (wanted.stretch) surfaces.check(*wanted.stretch);
-  }
+                           const scenario::SensorSpec& spec, const sdk::Sensor& sensor,
+                           scenario::Diagnostics& diagnostics) {
+  const auto wanted = sensor.wanted_surfaces();
+  const Surfaces surfaces(setup, bodies, spec, diagnostics);
+  if (wanted.wall_in) surfaces.check(*wanted.wall_in);
+  if (wanted.stretch) surfaces.check(*wanted.stretch);
 }
 
 }  // namespace dust::preflight
