@@ -90,12 +90,9 @@ std::vector<DustField::Part> DustField::parts_of(sdk::Vec3 min, sdk::Vec3 max,
   std::array<int, 3> first{};
   std::array<int, 3> end{};
   for (int d = 0; d < 3; ++d) {
-    const auto place = [&](double x) {
-      return static_cast<int>(std::floor((x - grid_.origin[d]) / grid_.spacing[d]));
-    };
     const auto n = static_cast<std::size_t>(d);
-    first[n] = std::clamp(place(min[d]) - 1, 0, grid_.count[n]);
-    end[n] = std::clamp(place(max[d]) + 2, 0, grid_.count[n]);
+    first[n] = std::clamp(grid_.layer_of(d, min[d]) - 1, 0, grid_.count[n]);
+    end[n] = std::clamp(grid_.layer_of(d, max[d]) + 2, 0, grid_.count[n]);
   }
   std::vector<Part> parts;
   for (int k = first[2]; k < end[2]; ++k) {

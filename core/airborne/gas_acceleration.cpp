@@ -3,6 +3,7 @@
 
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/kernel.hpp"
+#include "fluid/cells_beside.hpp"
 #include "fluid/parallel.hpp"
 
 #include <algorithm>
@@ -129,7 +130,6 @@ void GasAcceleration::find_velocity(const Flow& flow) {
 void GasAcceleration::find_clear(const Flow& flow) {
   for (std::size_t d = 0; d < 3; ++d) {
     const auto n = faces(grid_, d);
-    const std::ptrdiff_t s = grid_.stride[d];
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
       const double* passage = &flow.passage.component[d][at(o)];
@@ -139,20 +139,17 @@ void GasAcceleration::find_clear(const Flow& flow) {
         return;
       }
       const double* eps = flow.void_fraction->data();
-      const int place[3] = {0, j, k};
-      // Beyond a side there is the gas of the cell before it, or that of the other end.
-      const std::ptrdiff_t round = grid_.is_periodic[d] ? s * grid_.count[d] : s;
-      const auto row = [&](int first, int count, std::ptrdiff_t below, std::ptrdiff_t above) {
-        clear_row(count, eps + o + first + below, eps + o + first + above, passage + first,
-                  clear + first);
+      const auto row = [&](int first, int count, int along) {
+        const fluid::CellsBeside cells = fluid::cells_beside(grid_, d, along);
+        clear_row(count, eps + o + first + cells.below, eps + o + first + cells.above,
+                  passage + first, clear + first);
       };
       if (d == 0) {
-        row(0, 1, round - s, 0);
-        row(1, n[0] - 2, -s, 0);
-        row(n[0] - 1, 1, -s, -round);
+        row(0, 1, 0);
+        row(1, n[0] - 2, 1);
+        row(n[0] - 1, 1, n[0] - 1);
       } else {
-        const bool is_low = place[d] == 0, is_high = place[d] == grid_.count[d];
-        row(0, n[0], is_low ? round - s : -s, is_high ? -round : 0);
+        row(0, n[0], d == 1 ? j : k);
       }
     });
     wrap(clear_.component[d], d);

@@ -4,6 +4,7 @@
 #include "dust/sdk/vec3.hpp"
 #include "dust/sdk/voidage_rule.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -58,6 +59,19 @@ struct Grid {
       if (length[d] > 0.0) place[d] -= length[d] * std::floor((place[d] - origin[d]) / length[d]);
     }
     return place;
+  }
+  /// Layer of cells across d that `x` [m] lies in, be it beyond the grid.
+  [[nodiscard]] int layer_of(int d, double x) const {
+    return static_cast<int>(std::floor((x - origin[d]) / spacing[d]));
+  }
+  /// The cell that a place lies in, or the nearest one to a place beyond the grid.
+  [[nodiscard]] std::array<int, 3> cell_at(sdk::Vec3 place) const {
+    std::array<int, 3> cell{};
+    for (int d = 0; d < 3; ++d) {
+      const auto n = static_cast<std::size_t>(d);
+      cell[n] = std::clamp(layer_of(d, place[d]), 0, count[n] - 1);
+    }
+    return cell;
   }
   [[nodiscard]] std::ptrdiff_t index(int i, int j, int k) const {
     return i + k_margin + stride[1] * (j + k_halo) + stride[2] * (k + k_halo);

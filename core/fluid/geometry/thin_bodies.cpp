@@ -56,11 +56,9 @@ void ThinBodies::set(const Geometry& geometry) {
 }
 
 ThinBodies::Indices ThinBodies::indices(Vec3 point) const {
-  Indices cell;
+  Indices cell = grid_.cell_at(point);
   for (int d = 0; d < 3; ++d) {
-    const auto i = static_cast<int>(std::floor((point[d] - grid_.origin[d]) / grid_.spacing[d]));
-    cell[static_cast<std::size_t>(d)] =
-        grid_.is_periodic[d] ? i : std::clamp(i, 0, grid_.count[d] - 1);
+    if (grid_.is_periodic[d]) cell[static_cast<std::size_t>(d)] = grid_.layer_of(d, point[d]);
   }
   return cell;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/audit/force_shares.hpp"
 
+#include "dust/sdk/fluid_cells.hpp"
 #include "dust/sdk/sphere.hpp"
 
 #include <algorithm>
@@ -41,15 +42,12 @@ struct ContactSums {
 /// the ends; cells with less than half their volume open do not count.
 class PressureGradient {
  public:
-  explicit PressureGradient(const sdk::FluidColumns& fluid) : fluid_(fluid) {}
+  explicit PressureGradient(const sdk::FluidColumns& fluid) : fluid_(fluid), cells_(fluid) {}
 
-  [[nodiscard]] bool is_there() const { return !fluid_.pressure.empty(); }
+  [[nodiscard]] bool is_there() const { return !cells_.is_empty(); }
   [[nodiscard]] Vec3 at(Vec3 point) const {
     int cell[3];
-    for (int d = 0; d < 3; ++d) {
-      const double place = std::floor((point[d] - fluid_.origin[d]) / fluid_.spacing[d]);
-      cell[d] = static_cast<int>(std::clamp(place, 0.0, fluid_.count[d] - 1.0));
-    }
+    for (int d = 0; d < 3; ++d) cell[d] = cells_.cell_at(d, point[d]);
     Vec3 gradient;
     for (int d = 0; d < 3; ++d) gradient[d] = along(d, cell);
     return gradient;
@@ -62,7 +60,7 @@ class PressureGradient {
     for (const int step : {-1, 1}) {
       const int next = own + step;
       if (next < 0 || next >= fluid_.count[d]) continue;
-      if (fluid_.open_fraction[row(d, next, cell)] >= 0.5F) ends[step < 0 ? 0 : 1] = next;
+      if (cells_.is_open(row(d, next, cell))) ends[step < 0 ? 0 : 1] = next;
     }
     if (ends[0] == ends[1]) return 0.0;
     const double change = static_cast<double>(fluid_.pressure[row(d, ends[1], cell)]) -
@@ -72,13 +70,11 @@ class PressureGradient {
   [[nodiscard]] std::size_t row(int d, int at, const int* cell) const {
     int c[3] = {cell[0], cell[1], cell[2]};
     c[d] = at;
-    return (static_cast<std::size_t>(c[2]) * static_cast<std::size_t>(fluid_.count[1]) +
-            static_cast<std::size_t>(c[1])) *
-               static_cast<std::size_t>(fluid_.count[0]) +
-           static_cast<std::size_t>(c[0]);
+    return cells_.index(c[0], c[1], c[2]);
   }
 
   const sdk::FluidColumns& fluid_;
+  sdk::FluidCells cells_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "run/dust/dust_stage.hpp"
 
 #include "dust/sdk/sampling.hpp"
+#include "fluid/cells_beside.hpp"
 #include "fluid/parallel.hpp"
 #include "preflight/air/air_passage.hpp"
 
@@ -27,7 +28,7 @@ bool has_running_surfaces(const scenario::Setup& setup) {
 }
 
 DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec& spec,
-                     const Models& models, const FluidStage& fluid,
+                     const Models& models, FluidStage& fluid,
                      std::vector<particles::Opening> openings)
     : setup_(setup),
       models_(models),
@@ -107,7 +108,6 @@ void DustStage::find_passage() {
   for (std::size_t d = 0; d < 3; ++d) {
     std::array<int, 3> n = grid.count;
     n[d] += 1;
-    const std::ptrdiff_t s = grid.stride[d];
     const auto is_wall = [&](std::size_t high) {
       return setup_.domain.sides[2 * d + high].grains == scenario::GrainSide::wall;
     };
@@ -117,15 +117,12 @@ void DustStage::find_passage() {
       const int place[3] = {0, j, k};
       for (int i = 0; i < n[0]; ++i) {
         const int along = d == 0 ? i : place[d];
-        const bool is_low = along == 0;
-        const bool is_high = along == grid.count[d];
-        // Beyond a side there is the gas of the cell before it, or that of the other end.
-        const std::ptrdiff_t round = grid.is_periodic[d] ? s * grid.count[d] : s;
-        const std::ptrdiff_t face = o + i;
-        const double below = eps[at(is_low ? face - s + round : face - s)];
-        const double above = eps[at(is_high ? face - round : face)];
         const bool is_wall_face =
-            !grid.is_periodic[d] && ((is_low && low_is_wall) || (is_high && high_is_wall));
+            !grid.is_periodic[d] &&
+            ((along == 0 && low_is_wall) || (along == grid.count[d] && high_is_wall));
+        const fluid::CellsBeside cells = fluid::cells_beside(grid, d, along);
+        const double below = eps[at(o + i + cells.below)];
+        const double above = eps[at(o + i + cells.above)];
         flow_.passage.component[d][at(o + i)] =
             is_wall_face ? 0.0 : open.component[d][at(o + i)] * 0.5 * (below + above);
       }
@@ -156,7 +153,7 @@ void DustStage::advance(double time) {
   find_volume(flow_.volume_after);
   fluid_.solver().find_throughflow(flow_.throughflow);
   if (must_find_walls_ || fluid_.solver().has_moving_bodies()) {
-    walls_.find(time + setup_.time.fluid_step, must_find_walls_);
+    walls_.find(time + setup_.time.fluid_step, must_find_walls_, flow_);
     must_find_walls_ = false;
     flow_.walls_found += 1;
   }
@@ -173,22 +170,9 @@ void DustStage::advance(double time) {
   field_.advance(flow_, time, setup_.time.fluid_step);
 }
 
-/// The one that is nearest for a place beyond the grid; grains are put back at periodic sides now
-/// and then only.
-std::array<int, 3> DustStage::cell_at(sdk::Vec3 place) const {
-  const Grid& grid = fluid_.grid();
-  place = grid.inside(place);
-  std::array<int, 3> at{};
-  for (int d = 0; d < 3; ++d) {
-    const auto n = static_cast<std::size_t>(d);
-    const double x = std::floor((place[d] - grid.origin[d]) / grid.spacing[d]);
-    at[n] = std::clamp(static_cast<int>(x), 0, grid.count[n] - 1);
-  }
-  return at;
-}
-
 double DustStage::void_fraction_at(sdk::Vec3 place) const {
-  const auto [i, j, k] = cell_at(fluid_.solver().thin_bodies().on_own_side(place));
+  const sdk::Vec3 there = inside(fluid_.solver().thin_bodies().on_own_side(place));
+  const auto [i, j, k] = fluid_.grid().cell_at(there);
   return fluid_.void_fraction()[static_cast<std::size_t>(fluid_.grid().index(i, j, k))];
 }
 
@@ -216,7 +200,7 @@ std::int32_t DustStage::cell_with_gas(sdk::Vec3 place) const {
   constexpr int k_reach = 2;  // cells
   const Grid& grid = fluid_.grid();
   place = fluid_.solver().thin_bodies().on_own_side(place);
-  const std::array<int, 3> at = cell_at(place);
+  const std::array<int, 3> at = grid.cell_at(inside(place));
   const std::ptrdiff_t own = grid.index(at[0], at[1], at[2]);
   if (flow_.volume_after[static_cast<std::size_t>(own)] > 0.0) {
     return static_cast<std::int32_t>(own);

@@ -29,7 +29,7 @@ class DustStage {
  public:
   /// `setup` has a fluid; it, models and fluid are kept by reference. `openings`: see openings_of.
   DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec& spec, const Models& models,
-            const FluidStage& fluid, std::vector<particles::Opening> openings);
+            FluidStage& fluid, std::vector<particles::Opening> openings);
 
   /// What is there at the start.
   void start();
@@ -88,7 +88,6 @@ class DustStage {
   void add_parts(LoadParts& parts);
 
  private:
-  [[nodiscard]] std::array<int, 3> cell_at(sdk::Vec3 place) const;
   void find_volume(fluid::CellField& volume) const;
   void find_passage();
   void find_outflows();
@@ -96,7 +95,7 @@ class DustStage {
 
   const scenario::Setup& setup_;
   const Models& models_;
-  const FluidStage& fluid_;
+  FluidStage& fluid_;
   std::vector<particles::Opening> openings_;
   airborne::Flow flow_;
   bool must_find_walls_ = true;

@@ -155,7 +155,7 @@ double DustWalls::cancelled_in(const Cell& cell, const fluid::BodyField& bodies)
   return found->second;
 }
 
-void DustWalls::find(double time, bool is_anew) {
+void DustWalls::find(double time, bool is_anew, airborne::Flow& flow) {
   const Grid& grid = fluid_.grid();
   const fluid::CellField& share = fluid_.solver().open_fraction();
   const fluid::BodyField bodies(grid, models_.bodies, time, fluid::BodyField::Which::all);
@@ -173,11 +173,17 @@ void DustWalls::find(double time, bool is_anew) {
       }
     }
   }
-  motions_.clear();
+  find_running(time, flow.surface_motions);
+}
+
+/// Of all pieces; of none where all stand.
+void DustWalls::find_running(double time, std::vector<airborne::SurfaceMotion>& motions) const {
+  const Grid& grid = fluid_.grid();
+  motions.clear();
   if (running_.empty()) return;
-  motions_.resize(pieces_.size());
+  motions.resize(pieces_.size());
   for (const RunningPiece& running : running_) {
-    airborne::SurfaceMotion& motion = motions_[running.piece];
+    airborne::SurfaceMotion& motion = motions[running.piece];
     motion.point = running.point;
     motion.area = -grid.cell_volume() * pieces_[running.piece].area;
     motion.displaces = models_.bodies[static_cast<std::size_t>(running.body)].displaces();
@@ -185,24 +191,21 @@ void DustWalls::find(double time, bool is_anew) {
   }
 }
 
-void DustWalls::find_motions(double time) {
+void DustWalls::fill(double time, airborne::Flow& flow) {
   for (const RunningPiece& running : running_) {
-    airborne::SurfaceMotion& motion = motions_[running.piece];
+    airborne::SurfaceMotion& motion = flow.surface_motions[running.piece];
     motion.velocity = models_.bodies[static_cast<std::size_t>(running.body)].surface_velocity(
         motion.point, running.normal, time);
   }
-}
-
-void DustWalls::fill(double time, airborne::Flow& flow) {
-  find_motions(time);
-  flow.surface_motions = motions_;
   flow.walls = pieces_;
   for (airborne::WallPiece& piece : flow.walls) {
     const double eps = fluid_.void_fraction()[static_cast<std::size_t>(piece.cell)];
     piece.area = eps * piece.area;
     piece.cancelled *= eps;
   }
-  if (shear_) shear_->find(fluid_.solver().velocity(), motions_, flow.friction_velocity);
+  if (shear_) {
+    shear_->find(fluid_.solver().velocity(), flow.surface_motions, flow.friction_velocity);
+  }
 }
 
 }  // namespace dust::run

@@ -23,9 +23,10 @@ class DustWalls {
   DustWalls(const scenario::Setup& setup, const Models& models, const FluidStage& fluid,
             bool has_shear);
 
-  /// Where they are at `time` [s]. `is_anew`: not only bodies that move may have changed.
-  void find(double time, bool is_anew);
-  /// Fills in what dust is told of them, their motion at `time` [s].
+  /// Where they are at `time` [s], and which of them run. `is_anew`: not only bodies that move may
+  /// have changed.
+  void find(double time, bool is_anew, airborne::Flow& flow);
+  /// Fills in what dust is told of them since find(), their velocities at `time` [s].
   void fill(double time, airborne::Flow& flow);
   /// [-] Share of each face that gas can pass.
   [[nodiscard]] const fluid::FaceField& passable_area() const { return passable_area_; }
@@ -42,7 +43,7 @@ class DustWalls {
                 double cancelled);
   /// See cancelled_area.
   [[nodiscard]] double cancelled_in(const Cell& cell, const fluid::BodyField& bodies);
-  void find_motions(double time);
+  void find_running(double time, std::vector<airborne::SurfaceMotion>& motions) const;
 
   const scenario::Setup& setup_;
   const Models& models_;
@@ -58,8 +59,7 @@ class DustWalls {
     sdk::Vec3 point;  ///< [m] of the surface
   };
   std::vector<RunningPiece> running_;
-  std::vector<airborne::SurfaceMotion> motions_;  ///< of pieces_; empty: all stand
-  std::optional<WallShear> shear_;                ///< of pieces_; where somebody asks
+  std::optional<WallShear> shear_;  ///< of pieces_; where somebody asks
   /// [1/m] What has been found of cells that nothing which moves comes near.
   std::unordered_map<std::int32_t, double> cancelled_;
 };
