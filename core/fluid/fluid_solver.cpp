@@ -138,14 +138,12 @@ const FaceField& FluidSolver::drag_velocity() const { return impl_->drag_velocit
 const FaceField& FluidSolver::mean_velocity() const { return impl_->mean_velocity(); }
 const CellField& FluidSolver::pressure() const { return impl_->pressure(); }
 const CellField& FluidSolver::mean_pressure() const { return impl_->mean_pressure(); }
-const FaceField& FluidSolver::stress_divergence() const { return impl_->stress_divergence(); }
+const FaceField& FluidSolver::stress_divergence() { return impl_->stress_divergence(); }
 const CellField& FluidSolver::open_fraction() const { return impl_->open_fraction(); }
 const FaceField& FluidSolver::open_area() const { return impl_->open_area(); }
 const ThinBodies& FluidSolver::thin_bodies() const { return impl_->thin_bodies(); }
 FaceField FluidSolver::passable_area() const { return impl_->passable_area(); }
-void FluidSolver::find_throughflow(FaceField& throughflow) const {
-  impl_->find_throughflow(throughflow);
-}
+void FluidSolver::find_throughflow(FaceField& throughflow) { impl_->find_throughflow(throughflow); }
 void FluidSolver::each_sink(
     const std::function<void(std::int32_t, double, std::int32_t)>& visit) const {
   for (const Continuity::Sink& sink : impl_->mean_sinks()) visit(sink.cell, sink.rate, sink.body);
@@ -157,7 +155,7 @@ void FluidSolver::bodies_changed(double time) { impl_->bodies_changed(time); }
 void FluidSolver::set_velocity(const std::function<Vec3(Vec3)>& velocity) {
   impl_->set_velocity(velocity);
 }
-void FluidSolver::save(sdk::ArchiveWriter& archive) const { impl_->save(archive); }
+void FluidSolver::save(sdk::ArchiveWriter& archive) { impl_->save(archive); }
 void FluidSolver::load(sdk::ArchiveReader& archive, double time) { impl_->load(archive, time); }
 
 }  // namespace dust::fluid

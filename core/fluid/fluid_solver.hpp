@@ -75,9 +75,9 @@ class FluidSolver {
   [[nodiscard]] const CellField& mean_pressure() const;
   /// Acceleration-free part -grad p + div tau [N/m3] at faces, of the last step: of its end, or the
   /// mean over it where grains act on one fluid, which then have exactly the part of it that the
-  /// fluid was not given. Found when first asked for after a step: not from several threads at
-  /// once.
-  [[nodiscard]] const FaceField& stress_divergence() const;
+  /// fluid was not given. Found when first asked for after a step, which brings the eddies up to
+  /// date.
+  [[nodiscard]] const FaceField& stress_divergence();
   /// Share of a cell's volume outside all bodies, 0..1 (padded; halo cells as their neighbours).
   [[nodiscard]] const CellField& open_fraction() const;
   /// Share of the faces' areas outside all bodies, mean over the last interval between two cuts
@@ -91,9 +91,8 @@ class FluidSolver {
   /// [m/s] What passed the faces in the last step, over their whole area, as continuity has it:
   /// with the void fraction `after` of that step. The flow is that of its end, but for given flows
   /// that vary in it: their mean, so that what has passed is their integral. Where bodies that move
-  /// had the grid cut several times in the step, the mean over it. Not from several threads at
-  /// once.
-  void find_throughflow(FaceField& throughflow) const;
+  /// had the grid cut several times in the step, the mean over it.
+  void find_throughflow(FaceField& throughflow);
   /// Calls visit(cell, rate [1/s] of the cell's volume, body) for what bodies drew out of cells in
   /// the last step, its mean.
   void each_sink(const std::function<void(std::int32_t, double, std::int32_t)>& visit) const;
@@ -111,7 +110,8 @@ class FluidSolver {
   /// consistent.
   void set_velocity(const std::function<sdk::Vec3(sdk::Vec3)>& velocity);
 
-  void save(sdk::ArchiveWriter& archive) const;
+  /// With the stress of the last step, which is found for it.
+  void save(sdk::ArchiveWriter& archive);
   /// `time` [s] of the checkpoint: where the bodies are.
   void load(sdk::ArchiveReader& archive, double time);
 

@@ -4,10 +4,12 @@
 #include "dust/sdk/sphere.hpp"
 #include "particles/forces/contact_snapshot.hpp"
 #include "particles/impl.hpp"
+#include "particles/motion/free_acceleration.hpp"
 #include "particles/particle_error.hpp"
 #include "particles/transfer/translation.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace dust::particles {
@@ -19,6 +21,31 @@ std::size_t wall_count(const std::vector<Surface>& surfaces) {
   return walls;
 }
 
+/// Where each number of the solver stands in its checkpoint: new ones at the end.
+enum Number : std::size_t {
+  k_coarse_count,
+  k_next_id,
+  k_list_age,
+  k_outer_lifetime,
+  k_next_outer_lifetime,
+  k_rebuild_due,
+  k_reorder_due,
+  k_has_drag,
+  k_steps,
+  k_particle_steps,
+  k_sub_steps,
+  k_rebuilds,
+  k_missed_contact_onsets,
+  k_free_flight_steps,
+  k_skin_level,
+  k_inner_lifetime,
+  k_update_due,
+  k_list_updated,
+  k_list_repairs,
+  k_list_lifetime,
+  k_numbers
+};
+
 /// Widening of an opening in diagonals of the domain.
 constexpr double k_opening_rounding = 1e-9;
 
@@ -26,15 +53,20 @@ constexpr double k_opening_rounding = 1e-9;
 
 Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
                 std::vector<PairLaws> laws, const std::vector<double>& diameters,
-                double fluid_density, DustLoads dust)
-    : conditions(setup, bodies, std::move(laws), diameters, fluid_density, dust.is_on()),
+                DemOptions options)
+    : conditions(setup, bodies, std::move(laws), diameters, options.fluid_density,
+                 DustLoads(options.dust_shares).is_on()),
       store(setup.fluid.has_value()),
       inner(conditions.laws.history_stride()),
-      loads(std::move(dust)) {
-  if (loads.is_on()) accounts.work.begin(wall_count(conditions.surfaces), 0);
-  if (!setup.audit.energy) return;
-  accounts.energy.begin();
-  inner.let_all_step();
+      loads(std::move(options.dust_shares)) {
+  const std::size_t walls = wall_count(conditions.surfaces);
+  if (loads.is_on()) accounts.work.begin(walls, 0);
+  if (options.catches_dust) loads.let_catch();
+  if (options.keeps_wind) store.keep_wind();
+  set_openings(std::move(options.openings));
+  if (options.records_wall_loads) wall_loads.begin(conditions.surfaces, walls);
+  if (setup.audit.energy) accounts.energy.begin();
+  if (options.all_step || setup.audit.energy) inner.let_all_step();
 }
 
 void Dem::Impl::insert(std::span<const NewGrain> grains) {
@@ -48,13 +80,30 @@ void Dem::Impl::insert(std::span<const NewGrain> grains) {
     accounts.energy.enter(store, store.size() - 1);
     ledger.enter(population);
   }
+  rows_added();
+  ledger.close();
+}
+
+void Dem::Impl::rows_added() {
   outer.resize(store.size());
   accounts.work.resize(store.size());
-  ledger.close();
   outer.require(OuterList::Due::reorder);
 }
 
-void Dem::Impl::draw_out_at(std::vector<Opening> openings) {
+void Dem::Impl::reorder_rows(std::span<const std::int32_t> order) {
+  std::vector<std::int32_t> new_row(store.size(), -1);
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    new_row[static_cast<std::size_t>(order[n])] = static_cast<std::int32_t>(n);
+  }
+  inner.renumber(new_row);
+  fine_level.renumber(new_row);
+  store.reorder(order);
+  accounts.work.reorder(order);
+  loads.reorder(order);
+  outer.reorder(order);
+}
+
+void Dem::Impl::set_openings(std::vector<Opening> openings) {
   for (std::size_t o = 0; o < openings.size(); ++o) {
     for (Surface& surface : conditions.surfaces) {
       const bool is_body = surface.body != nullptr;
@@ -111,17 +160,8 @@ void Dem::Impl::remove_escaped() {
     }
   }
   if (keep.size() == store.size()) return;
-  // Histories and deferred impulses of the others survive: contacts name the new rows from here on,
-  // and the next rebuild takes them up.
-  std::vector<std::int32_t> new_row(store.size(), -1);
-  for (std::size_t n = 0; n < keep.size(); ++n)
-    new_row[static_cast<std::size_t>(keep[n])] = static_cast<std::int32_t>(n);
-  inner.renumber(new_row);
-  fine_level.renumber(new_row);
-  store.reorder(keep);
-  accounts.work.reorder(keep);
-  loads.reorder(keep);
-  outer.reorder(keep);
+  // Histories and deferred impulses of the others survive: the next rebuild takes them up.
+  reorder_rows(keep);
   ledger.close();
   outer.require(OuterList::Due::reorder);
 }
@@ -143,7 +183,6 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   ledger.transfer_from(other.ledger, names.materials(), names.openings(), density);
   store.transfer_from(other.store, names.materials(), names.openings(), ledger.masses());
   loads.transfer_from(other.loads, store, keeps_dust);
-  accounts.work.resize(store.size());
   store.update_decay(conditions.step());
   for (std::size_t n = 0; n < store.size(); ++n) accounts.energy.enter(store, n);
   fine_level.transfer_from(other.fine_level);
@@ -157,8 +196,7 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
   }
   inner.receive(std::move(pairs), std::move(walls), transfer.translated(other.inner.fine()));
   tuner.restore(other.tuner.state());
-  outer.resize(store.size());
-  outer.require(OuterList::Due::reorder);
+  rows_added();
   const auto inside = find_inside_hoods({other.conditions, other.store}, conditions, names);
   for (const auto& [row, opening] : inside) store.touched_openings()[row] = opening;
   if (!inside.empty()) remove_escaped();
@@ -168,16 +206,18 @@ TransferReport Dem::Impl::transfer_from(const Impl& other, std::span<const LawTr
           .drawn_out = static_cast<std::int64_t>(inside.size())};
 }
 
-void Dem::Impl::fill_last_force() const {
+void Dem::Impl::require_synchronised() const {
+  if (inner.life().is_running()) {
+    throw std::logic_error("particles between two looks at them: call Dem::synchronise() first");
+  }
+}
+
+void Dem::Impl::fill_last_force() {
   last_force.assign(4 * store.size(), 0.0);
   for (std::size_t n = 0; n < store.size(); ++n) {
     const double mass = 1.0 / store.inverse_mass(n);
-    const double* drag = store.drag(n);
-    const double* g =
-        conditions.gravity.data() + 4 * static_cast<std::ptrdiff_t>(store.material(n));
-    for (std::size_t d = 0; d < 3; ++d) {
-      last_force[4 * n + d] = mass * (g[d] + drag[3] * (drag[d] - store.velocity(n)[d]));
-    }
+    const sdk::Vec3 force = mass * free_acceleration(store, conditions.gravity, n);
+    for (int d = 0; d < 3; ++d) last_force[4 * n + static_cast<std::size_t>(d)] = force[d];
   }
   if (outer.is_reorder_due()) return;  // rows have changed since the forces were computed
   const std::span<const double> contact_force = tile_step.contact_force();
@@ -188,10 +228,9 @@ void Dem::Impl::fill_last_force() const {
 }
 
 Dem::Dem(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
-         std::vector<double> class_diameters, double fluid_density,
-         std::vector<std::vector<double>> dust_shares)
-    : impl_(std::make_unique<Impl>(setup, bodies, std::move(laws), std::move(class_diameters),
-                                   fluid_density, DustLoads(std::move(dust_shares)))) {}
+         const std::vector<double>& class_diameters, DemOptions options)
+    : impl_(std::make_unique<Impl>(setup, bodies, std::move(laws), class_diameters,
+                                   std::move(options))) {}
 Dem::~Dem() = default;
 
 double Dem::coarse_step() const { return impl_->conditions.step(); }
@@ -201,7 +240,6 @@ void Dem::insert(std::span<const NewGrain> grains) {
   impl_->synchronise();
   impl_->insert(grains);
 }
-void Dem::draw_out_at(std::vector<Opening> openings) { impl_->draw_out_at(std::move(openings)); }
 std::span<const Opening> Dem::openings() const { return impl_->conditions.openings; }
 void Dem::remove_escaped() {
   impl_->synchronise();
@@ -226,7 +264,6 @@ void Dem::advance_fine() { impl_->advance_fine(); }
 void Dem::add_force(const std::function<sdk::Vec3(std::size_t)>& force) {
   impl_->tile_step.add_force(impl_->step_scene(), force);
 }
-void Dem::let_all_step() { impl_->inner.let_all_step(); }
 
 std::array<double, 3> Dem::phase_shares() const { return impl_->tile_step.phase_shares(); }
 void Dem::drag_relaxation_changed() { impl_->store.update_decay(impl_->conditions.step()); }
@@ -244,13 +281,13 @@ void Dem::turn(std::size_t row, sdk::Vec3 change) {
   }
 }
 
-std::span<const double> Dem::last_force() const {
+std::span<const double> Dem::last_force() {
   impl_->synchronise();
   impl_->fill_last_force();
   return impl_->last_force;
 }
 
-std::vector<ContactRecord> Dem::contacts(double time) const {
+std::vector<ContactRecord> Dem::contacts(double time) {
   impl_->synchronise();
   // Since grains came or went, the lists name other rows; they are made new at the next step.
   if (impl_->outer.is_reorder_due()) return {};
@@ -306,18 +343,11 @@ std::span<const double> Dem::dust_load(std::size_t row) const { return impl_->lo
 void Dem::set_dust_free(std::size_t row, std::size_t n, double mass) {
   impl_->loads.set_free(impl_->store, row, n, mass);
 }
-void Dem::keep_wind() { impl_->store.keep_wind(); }
-void Dem::let_catch_dust() { impl_->loads.let_catch(); }
 void Dem::take_up_dust(std::size_t row, std::size_t n, double mass) {
   impl_->loads.take_up(impl_->store, row, n, mass);
 }
 DustLoads::Balance Dem::dust_balance(std::size_t n) const {
   return impl_->loads.balance(impl_->store, n);
-}
-
-void Dem::record_wall_loads() {
-  impl_->wall_loads.begin(impl_->conditions.surfaces, wall_count(impl_->conditions.surfaces));
-  impl_->outer.require(OuterList::Due::rebuild);
 }
 
 sdk::WallColumns Dem::close_wall_loads(double interval, double time) {
@@ -339,13 +369,13 @@ TransferObstacles Dem::obstacles_to(const Dem& other, double time) {
 
 TransferReport Dem::transfer_from(const Dem& other, double time, std::span<const LawTransfer> laws,
                                   bool keeps_dust) {
-  other.impl_->synchronise();
+  other.impl_->require_synchronised();
   impl_->move_to(time);
   return impl_->transfer_from(*other.impl_, laws, keeps_dust);
 }
 
 void Dem::save(sdk::ArchiveWriter& archive) const {
-  impl_->synchronise();
+  impl_->require_synchronised();
   impl_->save(archive);
 }
 void Dem::load(sdk::ArchiveReader& archive) { impl_->load(archive); }
@@ -362,51 +392,57 @@ void Dem::Impl::save(sdk::ArchiveWriter& archive) const {
   archive.number("time", conditions.time);
   const ListTuner::State lifetimes = tuner.state();
   const OuterList::State list = outer.state();
-  const std::int64_t state[] = {static_cast<std::int64_t>(tiling.coarse_count),
-                                store.next_id(),
-                                list.age,
-                                lifetimes.outer_lifetime,
-                                lifetimes.next_outer_lifetime,
-                                list.due >= OuterList::Due::rebuild,
-                                list.due == OuterList::Due::reorder,
-                                store.has_drag(),
-                                counters.steps,
-                                counters.particle_steps,
-                                fine_level.sub_steps(),
-                                counters.rebuilds,
-                                counters.missed_contact_onsets,
-                                counters.free_flight_steps,
-                                lifetimes.skin_level,
-                                lifetimes.inner_lifetime,
-                                list.due == OuterList::Due::update,
-                                list.updated,
-                                counters.list_repairs,
-                                list.lifetime};
+  std::vector<std::int64_t> state(k_numbers);
+  state[k_coarse_count] = static_cast<std::int64_t>(tiling.coarse_count);
+  state[k_next_id] = store.next_id();
+  state[k_list_age] = list.age;
+  state[k_outer_lifetime] = lifetimes.outer_lifetime;
+  state[k_next_outer_lifetime] = lifetimes.next_outer_lifetime;
+  state[k_rebuild_due] = list.due >= OuterList::Due::rebuild;
+  state[k_reorder_due] = list.due == OuterList::Due::reorder;
+  state[k_has_drag] = store.has_drag();
+  state[k_steps] = counters.steps;
+  state[k_particle_steps] = counters.particle_steps;
+  state[k_sub_steps] = fine_level.sub_steps();
+  state[k_rebuilds] = counters.rebuilds;
+  state[k_missed_contact_onsets] = counters.missed_contact_onsets;
+  state[k_free_flight_steps] = counters.free_flight_steps;
+  state[k_skin_level] = lifetimes.skin_level;
+  state[k_inner_lifetime] = lifetimes.inner_lifetime;
+  state[k_update_due] = list.due == OuterList::Due::update;
+  state[k_list_updated] = list.updated;
+  state[k_list_repairs] = counters.list_repairs;
+  state[k_list_lifetime] = list.lifetime;
   archive.integers("state", state);
 }
 
 void Dem::Impl::load(sdk::ArchiveReader& archive) {
   const auto state = archive.integers("state");
-  tiling = Tiling::of(static_cast<std::size_t>(state.at(0)));
-  counters.steps = state.at(8);
-  counters.particle_steps = state.at(9);
-  counters.rebuilds = state.at(11);
-  counters.missed_contact_onsets = state.at(12);
-  counters.free_flight_steps = state.at(13);
-  counters.list_repairs = state.at(18);
-  tuner.restore({state.at(3), state.at(4), state.at(14), state.at(15)});
+  tiling = Tiling::of(static_cast<std::size_t>(state.at(k_coarse_count)));
+  counters.steps = state.at(k_steps);
+  counters.particle_steps = state.at(k_particle_steps);
+  counters.rebuilds = state.at(k_rebuilds);
+  counters.missed_contact_onsets = state.at(k_missed_contact_onsets);
+  counters.free_flight_steps = state.at(k_free_flight_steps);
+  counters.list_repairs = state.at(k_list_repairs);
+  tuner.restore({state.at(k_outer_lifetime), state.at(k_next_outer_lifetime),
+                 state.at(k_skin_level), state.at(k_inner_lifetime)});
   OuterList::Due due = OuterList::Due::nothing;
-  if (state.at(16) != 0) due = OuterList::Due::update;
-  if (state.at(5) != 0) due = OuterList::Due::rebuild;
-  if (state.at(6) != 0) due = OuterList::Due::reorder;
-  store.load(archive, state.at(1), state.at(7) != 0);
+  if (state.at(k_update_due) != 0) due = OuterList::Due::update;
+  if (state.at(k_rebuild_due) != 0) due = OuterList::Due::rebuild;
+  if (state.at(k_reorder_due) != 0) due = OuterList::Due::reorder;
+  store.load(archive, state.at(k_next_id), state.at(k_has_drag) != 0);
   const std::size_t tiles = tile_step.load(archive, wall_loads.walls());
   // Checkpoints of before are of runs whose lists had been made with it.
-  const std::int64_t lifetime = state.size() > 19 ? state[19] : tuner.outer_lifetime();
+  const std::int64_t lifetime =
+      state.size() > k_list_lifetime ? state[k_list_lifetime] : tuner.outer_lifetime();
   outer.load(archive, tiles,
-             {.age = state.at(2), .updated = state.at(17), .lifetime = lifetime, .due = due});
+             {.age = state.at(k_list_age),
+              .updated = state.at(k_list_updated),
+              .lifetime = lifetime,
+              .due = due});
   inner.load(archive, tiles);
-  fine_level.load(archive, state.at(10));
+  fine_level.load(archive, state.at(k_sub_steps));
   ledger.load(archive);
   loads.load(archive);
   accounts.work.resize(store.size());

@@ -84,6 +84,20 @@ struct ContactRecord {
   sdk::Vec3 wall_velocity;  ///< [m/s] of the surface at the contact point; 0 between grains
 };
 
+/// What a solver is asked for beyond its scenario.
+struct DemOptions {
+  double fluid_density = 0.0;  ///< [kg/m3] > 0: of the hydrostatic pressure that reduces gravity
+  /// kg of dust per kg of grain, by material and class; empty: none carries any.
+  std::vector<std::vector<double>> dust_shares;
+  bool catches_dust = false;  ///< take_up_dust() is called
+  bool keeps_wind = false;    ///< GrainRows::wind is asked for; with a fluid only
+  /// Particles that touch these are drawn out.
+  std::vector<Opening> openings;
+  bool records_wall_loads = false;  ///< close_wall_loads() is called
+  /// None flies freely: add_force() acts on all coarse particles.
+  bool all_step = false;
+};
+
 /// Discrete elements: rows in Morton order in fixed tiles, Verlet lists from a hierarchical grid,
 /// contact laws in batches, several rates. Deterministic for any number of threads.
 ///
@@ -91,12 +105,9 @@ struct ContactRecord {
 /// or went), contact(), force(), integrate(), advance_fine(). Each is parallel inside.
 class Dem {
  public:
-  /// `class_diameters`: all diameters that may come, ascending. `fluid_density` > 0 reduces gravity
-  /// by the buoyancy of the hydrostatic pressure. `dust_shares`: kg of dust per kg of grain, by
-  /// material and class; empty: none carries any.
+  /// `class_diameters`: all diameters that may come, ascending.
   Dem(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
-      std::vector<double> class_diameters, double fluid_density,
-      std::vector<std::vector<double>> dust_shares = {});
+      const std::vector<double>& class_diameters, DemOptions options);
   ~Dem();
   Dem(const Dem&) = delete;
   Dem& operator=(const Dem&) = delete;
@@ -106,8 +117,6 @@ class Dem {
   [[nodiscard]] const TimeSteps& time_steps() const;
 
   void insert(std::span<const NewGrain> grains);
-  /// Particles that touch these openings are drawn out. Call before the first step.
-  void draw_out_at(std::vector<Opening> openings);
   [[nodiscard]] std::span<const Opening> openings() const;
   /// Counts and drops grains beyond open sides and those drawn out. Call between coarse steps.
   void remove_escaped();
@@ -129,9 +138,8 @@ class Dem {
   void advance_fine();
   /// Adds `force`(row) [N], asked by several threads, to each coarse particle that makes this step:
   /// for stages of one's own between force() and integrate(). Those that fly without a partner make
-  /// no steps, unless let_all_step() was called before the first.
+  /// no steps, unless DemOptions::all_step is set.
   void add_force(const std::function<sdk::Vec3(std::size_t)>& force);
-  void let_all_step();
 
   /// Ends the inner pair list and brings all grains to the present time: those in free flight make
   /// many steps at once. Whatever looks at the grains below does it first; end a run of steps with
@@ -143,10 +151,10 @@ class Dem {
   void turn(std::size_t row, sdk::Vec3 change);
   /// Force [N] (contact + fluid + weight) of the last step, 4 per grain in row order; without the
   /// contacts of coarse grains where contact() did not keep them.
-  [[nodiscard]] std::span<const double> last_force() const;
+  [[nodiscard]] std::span<const double> last_force();
   /// The contacts of this moment, which is `time` [s]; costs a pass over all of them, so only for
   /// those who ask.
-  [[nodiscard]] std::vector<ContactRecord> contacts(double time) const;
+  [[nodiscard]] std::vector<ContactRecord> contacts(double time);
   [[nodiscard]] const Balance& balance() const;
   [[nodiscard]] const BalanceLedger& ledger() const;
   /// Zeros unless the scenario asks for it (Setup::audit).
@@ -163,16 +171,10 @@ class Dem {
   [[nodiscard]] std::span<const double> dust_load(std::size_t row) const;
   /// `mass` [kg] of a class comes off a real particle. Call between coarse steps.
   void set_dust_free(std::size_t row, std::size_t n, double mass);
-  /// See DustLoads: particles may catch dust; a real one catches `mass` [kg] of a class. Call
-  /// between coarse steps.
-  void let_catch_dust();
-  /// The wind at grains is kept for those who ask, see GrainRows. With a fluid only.
-  void keep_wind();
+  /// A real particle catches `mass` [kg] of a class, see DustLoads. Call between coarse steps.
   void take_up_dust(std::size_t row, std::size_t n, double mass);
   [[nodiscard]] DustLoads::Balance dust_balance(std::size_t n) const;
-  /// Keeps what grains do to walls from now on.
-  void record_wall_loads();
-  /// Ends the interval [s] of the wall loads, at `time` [s]; nothing unless they are watched. Call
+  /// Ends the interval [s] of the wall loads, at `time` [s]; nothing unless they are recorded. Call
   /// between coarse steps.
   sdk::WallColumns close_wall_loads(double interval, double time);
   /// As of the last close.
@@ -187,6 +189,7 @@ class Dem {
   using Digests = std::map<std::string, std::function<std::uint64_t()>>;
   [[nodiscard]] Digests digests() const;
 
+  /// After synchronise(): no inner pair list is part of it.
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
 
@@ -195,8 +198,8 @@ class Dem {
   /// Takes the particles of another solver, under whatever laws, materials and bodies it has, with
   /// the histories of their contacts; materials, bodies and openings are known by their names.
   /// `laws` by its number of a law. `keeps_dust`: its classes of dust are those here; else each
-  /// particle carries what its material brings here. Call before the first step, and where nothing
-  /// stands in the way.
+  /// particle carries what its material brings here. Call before the first step, where nothing
+  /// stands in the way, and after the other's synchronise().
   TransferReport transfer_from(const Dem& other, double time, std::span<const LawTransfer> laws,
                                bool keeps_dust = true);
 

@@ -121,17 +121,8 @@ void Dem::Impl::reorder_if_due(ContactCarrier& contacts) {
       morton_order(store.contact_rows().position, store.size(), conditions.domain.min(),
                    conditions.largest_diameter(), conditions.steps.coarse_limit);
   tiling = Tiling::of(sorted.coarse_count);
-  store.reorder(sorted.order);
-  accounts.work.reorder(sorted.order);
-  loads.reorder(sorted.order);
-  outer.reorder(sorted.order);
+  reorder_rows(sorted.order);
   contacts.renumber(sorted.order);
-  if (fine_level.deferred().all().empty()) return;
-  std::vector<std::int32_t> new_row(sorted.order.size());
-  for (std::size_t n = 0; n < new_row.size(); ++n) {
-    new_row[static_cast<std::size_t>(sorted.order[n])] = static_cast<std::int32_t>(n);
-  }
-  fine_level.renumber(new_row);
 }
 
 void Dem::Impl::begin_step(double now, bool keeps_force) {

@@ -27,7 +27,7 @@ namespace dust::particles {
 class Dem::Impl {
  public:
   Impl(const scenario::Setup& setup, const bodies::BodySet& bodies, std::vector<PairLaws> laws,
-       const std::vector<double>& diameters, double fluid_density, DustLoads loads);
+       const std::vector<double>& diameters, DemOptions options);
 
   // dem_step.cpp
   void update_pair_lists();
@@ -41,15 +41,21 @@ class Dem::Impl {
   friend class Dem;
 
   // dem.cpp
+  void set_openings(std::vector<Opening> openings);
   void insert(std::span<const NewGrain> grains);
   void remove_escaped();
   /// Whether a particle has left the domain or was drawn out; if so it is counted.
   [[nodiscard]] bool leaves(std::size_t row);
-  void draw_out_at(std::vector<Opening> openings);
+  /// All that follows the rows does so; the contacts of a list that stays, too. See
+  /// ParticleStore::reorder.
+  void reorder_rows(std::span<const std::int32_t> order);
+  void rows_added();
   void move_to(double time);
   TransferReport transfer_from(const Impl& other, std::span<const LawTransfer> laws,
                                bool keeps_dust);
-  void fill_last_force() const;
+  void fill_last_force();
+  /// What is saved or handed on has no inner list.
+  void require_synchronised() const;
   void gather_wall_loads();
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
@@ -89,7 +95,7 @@ class Dem::Impl {
   WallLoads wall_loads;  ///< empty between fluid steps, so that nothing of it is saved
   DustLoads loads;       ///< empty where none carries dust
   DemReport counters;
-  mutable contact::AlignedVector<double> last_force;
+  contact::AlignedVector<double> last_force;
 };
 
 }  // namespace dust::particles

@@ -182,17 +182,13 @@ const std::vector<float>& FluidStage::momentum_exchange() {
 void FluidStage::set_velocity(const fluid::FaceField& velocity) {
   // The faces of each direction are asked for by their places.
   solver_->set_velocity([&](sdk::Vec3 place) {
-    std::array<int, 3> face{}, cell{};
+    const std::array<int, 3> cell = grid_.cell_at(place);
+    sdk::Vec3 u;
     for (std::size_t d = 0; d < 3; ++d) {
       const int axis = static_cast<int>(d);
       const double at = (place[axis] - grid_.origin[axis]) / grid_.spacing[axis];
-      face[d] = std::clamp(static_cast<int>(std::lround(at)), 0, grid_.count[d]);
-      cell[d] = std::clamp(static_cast<int>(std::floor(at)), 0, grid_.count[d] - 1);
-    }
-    sdk::Vec3 u;
-    for (std::size_t d = 0; d < 3; ++d) {
       std::array<int, 3> n = cell;
-      n[d] = face[d];
+      n[d] = std::clamp(static_cast<int>(std::lround(at)), 0, grid_.count[d]);
       u[static_cast<int>(d)] =
           velocity.component[d][static_cast<std::size_t>(grid_.index(n[0], n[1], n[2]))];
     }
@@ -223,7 +219,7 @@ void FluidStage::for_fields(Fluid& fluid, const Visit& visit) {
   visit(std::string("pressure"), fluid.pressure);
 }
 
-void FluidStage::add_parts(SaveParts& parts) const {
+void FluidStage::add_parts(SaveParts& parts) {
   parts.emplace_back("fluid", [this](sdk::ArchiveWriter& a) { solver_->save(a); });
   if (coupling_) {
     parts.emplace_back("coupling", [this](sdk::ArchiveWriter& a) { coupling_->save(a); });

@@ -27,6 +27,7 @@ class FluidStage {
 
   [[nodiscard]] const fluid::Grid& grid() const { return grid_; }
   [[nodiscard]] const fluid::FluidSolver& solver() const { return *solver_; }
+  [[nodiscard]] fluid::FluidSolver& solver() { return *solver_; }
   /// Null without particles that a drag law is for.
   [[nodiscard]] const coupling::Coupling* coupling() const { return coupling_.get(); }
   /// Null without particles whose surfaces the fluid meets.
@@ -78,7 +79,7 @@ class FluidStage {
     sub_steps_ = sub_steps;
     pressure_iterations_ = pressure_iterations;
   }
-  void add_parts(SaveParts& parts) const;
+  void add_parts(SaveParts& parts);
   /// `time()` [s] of the checkpoint, once its clock is loaded; `loaded` is called after each part.
   void add_parts(LoadParts& parts, const std::function<double()>& time,
                  const std::function<void()>& loaded);

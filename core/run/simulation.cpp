@@ -23,27 +23,37 @@ Snapshots::Wanted wanted_by_sensors(const Models& models) {
   return wanted;
 }
 
+particles::DemOptions dem_options(const scenario::Setup& setup, const Models& models,
+                                  const scenario::DustSetup& dust) {
+  particles::DemOptions options{
+      .dust_shares = dust.shares_on_grains(),
+      .catches_dust = dust.field && dust.field->scavenging,
+      .keeps_wind = dust.field && models.liberation && models.liberation->needs_wind(),
+      .openings = openings_of(setup, dust)};
+  // Buoyancy is part of the weight, unless a model gives it.
+  if (setup.fluid && !coupling::takes_over_buoyancy(models.fluid_forces)) {
+    options.fluid_density = setup.fluid->density;
+  }
+  for (const auto& sensor : models.sensors) options.records_wall_loads |= sensor->wants_walls();
+  return options;
+}
+
 }  // namespace
 
 std::unique_ptr<particles::Dem> make_particles(const scenario::Setup& setup, Models& models,
                                                const scenario::DustSetup& dust) {
-  // Buoyancy is part of the weight, unless a model gives it.
-  const bool has_buoyancy = setup.fluid && !coupling::takes_over_buoyancy(models.fluid_forces);
-  const double density = has_buoyancy ? setup.fluid->density : 0.0;
+  particles::DemOptions options = dem_options(setup, models, dust);
   if (!models.class_diameters.empty()) {
-    auto made =
-        std::make_unique<particles::Dem>(setup, models.bodies, std::move(models.laws),
-                                         models.class_diameters, density, dust.shares_on_grains());
-    if (dust.field && dust.field->scavenging) made->let_catch_dust();
-    return made;
+    return std::make_unique<particles::Dem>(setup, models.bodies, std::move(models.laws),
+                                            models.class_diameters, std::move(options));
   }
   // Nothing asks how large particles are that never come, and nothing shortens the step.
   constexpr double k_any_diameter = 1e-3;
   scenario::Setup empty = setup;
   empty.time.dem_step = empty.time.fluid_step;
+  options.catches_dust = false;
   return std::make_unique<particles::Dem>(empty, models.bodies, std::move(models.laws),
-                                          std::vector<double>{k_any_diameter}, density,
-                                          dust.shares_on_grains());
+                                          std::vector<double>{k_any_diameter}, std::move(options));
 }
 
 Simulation::Simulation(const scenario::Setup& setup, Models models, int check_every,
@@ -58,7 +68,6 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
     snapshots_.use_fluid(fluid_->grid(), *setup_.fluid, fluid_->solver().open_fraction());
   }
   dem_ = make_particles(setup_, models_, dust_setup_);
-  dem_->draw_out_at(openings_of(setup_, dust_setup_));
   if (dust_setup_.field) {
     dust_ = std::make_unique<DustStage>(setup_, *dust_setup_.field, models_, *fluid_,
                                         openings_of(setup_, dust_setup_));
@@ -74,8 +83,6 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
   }
   cycle_.emplace(clock_.fluid_step(), dem_->coarse_step());
   insertion_ = std::make_unique<Insertion>(setup_, models_);
-  for (const auto& sensor : models_.sensors) wants_walls_ |= sensor->wants_walls();
-  if (wants_walls_) dem_->record_wall_loads();
   build_dem_graph(check_every);
   build_step_graph();
   snapshots_.take(*dem_, clock_.end_of_last_step());
@@ -245,7 +252,7 @@ std::string Simulation::state_digest() const {
                            fluid_ ? fluid_->grid() : fluid::Grid{});
 }
 
-SaveParts Simulation::save_parts() const {
+SaveParts Simulation::save_parts() {
   SaveParts parts;
   parts.emplace_back("clock", [this](sdk::ArchiveWriter& a) {
     clock_.save(a);

@@ -112,7 +112,7 @@ class Simulation {
   [[nodiscard]] const graph::TaskGraph& step_graph() const { return step_graph_; }
   [[nodiscard]] const graph::TaskGraph& dem_graph() const { return dem_graph_; }
 
-  [[nodiscard]] SaveParts save_parts() const;
+  [[nodiscard]] SaveParts save_parts();
   [[nodiscard]] LoadParts load_parts();
 
  private:
@@ -160,7 +160,6 @@ class Simulation {
   std::optional<DemCycle> cycle_;  ///< within a fluid step
   std::unique_ptr<Insertion> insertion_;
   Snapshots snapshots_;
-  bool wants_walls_ = false;
   graph::TaskGraph step_graph_{"fluid_step"};
   graph::TaskGraph dem_graph_{"dem_step"};
 };

@@ -219,7 +219,7 @@ void Simulation::add_last_nodes() {
   step_graph_.add({"publish_grains", {"grain.state"}, {"grain.columns"}, [this] {
                      const double end = time() + clock_.fluid_step();
                      snapshots_.take(*dem_, end);
-                     if (wants_walls_) dem_->close_wall_loads(clock_.fluid_step(), end);
+                     dem_->close_wall_loads(clock_.fluid_step(), end);
                    }});
   step_graph_.add(
       {"health", {"grain.columns"}, {"health"}, [this] { check_finite(snapshots_.particles()); }});

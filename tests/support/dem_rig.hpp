@@ -63,9 +63,8 @@ struct DemRig {
   bodies::BodySet bodies;
   std::vector<particles::PairLaws> laws;
   std::vector<double> diameters;
-  double fluid_density = 0.0;
-  bool has_fluid = false;                        ///< room for what a fluid does to the grains
-  std::vector<std::vector<double>> dust_shares;  ///< by material and class
+  bool has_fluid = false;  ///< room for what a fluid does to the grains
+  particles::DemOptions options;
 
   DemRig() {
     setup.domain.min = {-1, -1, -1};
@@ -118,8 +117,7 @@ struct DemRig {
   /// Takes the laws.
   std::unique_ptr<particles::Dem> make() {
     if (has_fluid) setup.fluid.emplace();
-    return std::make_unique<particles::Dem>(setup, bodies, std::move(laws), diameters,
-                                            fluid_density, dust_shares);
+    return std::make_unique<particles::Dem>(setup, bodies, std::move(laws), diameters, options);
   }
 };
 

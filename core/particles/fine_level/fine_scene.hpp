@@ -57,7 +57,4 @@ struct FineScene {
   }
 };
 
-/// The first three numbers of a row.
-inline sdk::Vec3 vector_of(const double* row) { return {row[0], row[1], row[2]}; }
-
 }  // namespace dust::particles

@@ -2,6 +2,8 @@
 #include "particles/fine_level/prediction.hpp"
 
 #include "contact/nearest_image.hpp"
+#include "particles/motion/free_acceleration.hpp"
+#include "particles/time_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,22 +15,12 @@ using sdk::Vec3;
 
 /// Gap, in radii of the fine particle, below which a partner always counts as in reach.
 constexpr double k_reach_margin = 0.05;
-/// Steps per contact.
-constexpr double k_steps_per_contact = 15.0;
 /// Of a Hertz contact, the half period at its deepest over its duration: pi / sqrt(15/8) / 2.94. A
 /// collision then has the same step on its way in, where its speed counts, and at its deepest,
 /// where the overlap does.
 constexpr double k_deepest = 0.78;
 
 double sum_of_parts(Vec3 v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-
-/// Acceleration [m/s2] of a fine particle by all but contacts.
-Vec3 free_acceleration(const FineScene& scene, std::size_t i) {
-  const ParticleStore& s = scene.particles;
-  const double* g = scene.gravity.data() + 4 * static_cast<std::ptrdiff_t>(s.material(i));
-  const double* action = s.drag(i);
-  return vector_of(g) + action[3] * (vector_of(action) - vector_of(s.velocity(i)));
-}
 
 /// A partner as it stood at the beginning of the step. A coarse one has made its step along a
 /// straight line.
@@ -53,7 +45,7 @@ bool is_far(const FineScene& scene, std::size_t i, std::size_t j, double extra_s
   const Partner other(scene, j);
   const Vec3 d = contact::nearest_image(scene.images, &other.position.x, &position.x);
   const double radius = s.radius(i);
-  const Vec3 free = free_acceleration(scene, i);
+  const Vec3 free = free_acceleration(scene.particles, scene.gravity, i);
   const double speed = sum_of_parts(vector_of(s.velocity(i)) - other.velocity) +
                        sum_of_parts(free) * step + extra_speed;
   const double reach =
@@ -112,7 +104,7 @@ double stable_step(const PairLaws& laws, const Approach& a, double speed) {
              laws.contact->collision_time(a.effective_radius, a.effective_mass,
                                           std::max(speed, 1e-12)),
              laws.contact->half_period(a.effective_radius, a.effective_mass, overlap) / k_deepest) /
-         k_steps_per_contact;
+         k_steps_per_collision;
 }
 
 }  // namespace
@@ -127,7 +119,7 @@ ContactPrediction predict_contact(const FineScene& scene, std::size_t entry, dou
   }
   const Approach a = b < 0 ? approach_to_surface(scene, i, -1 - b)
                            : approach_to_particle(scene, i, static_cast<std::size_t>(b));
-  double gain = norm(free_acceleration(scene, i)) * step;
+  double gain = norm(free_acceleration(scene.particles, scene.gravity, i)) * step;
   if (b < 0) gain += a.surface_speed;
   ContactPrediction out;
   out.speed = norm(a.relative) + gain;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/neighbours/inner_list.hpp"
 
+#include "particles/motion/free_acceleration.hpp"
+
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -157,17 +159,10 @@ std::int64_t InnerList::prune_fine(const Pruning& p) {
 bool InnerList::flies_straight(const Pruning& p, std::size_t n) const {
   const ListScene& scene = p.in.scene;
   if (!scene.has_made_steps(static_cast<std::int32_t>(n))) return false;
-  const ParticleStore& particles = scene.particles;
-  const double* g = scene.gravity.data() + 4 * static_cast<std::ptrdiff_t>(particles.material(n));
-  const double* action = particles.drag(n);
-  double sum = 0.0;
-  for (std::size_t d = 0; d < 3; ++d) {
-    const double a = g[d] + action[3] * (action[d] - particles.velocity(n)[d]);
-    sum += a * a;
-  }
+  const sdk::Vec3 free = free_acceleration(scene.particles, scene.gravity, n);
   const double bend = (0.5 * p.duration + scene.step) * p.duration;
   const double limit = 0.5 * skin_[n];
-  return sum * bend * bend < limit * limit;
+  return dot(free, free) * bend * bend < limit * limit;
 }
 
 void InnerList::collect_active(const Pruning& p, std::size_t begin, std::size_t end,

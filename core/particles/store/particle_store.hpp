@@ -22,6 +22,9 @@ inline double felt_share(double weight, double other) {
   return other < weight ? other / weight : 1.0;
 }
 
+/// The first three numbers of a row.
+inline sdk::Vec3 vector_of(const double* row) { return {row[0], row[1], row[2]}; }
+
 /// The particles, row by row: the only owner of what moves. How numbers are packed is its own
 /// affair, but for the kernels that are given views.
 ///

@@ -4,7 +4,6 @@
 #include "base/text.hpp"
 #include "run/branch/branch.hpp"
 #include "run/branch/changed_archive.hpp"
-#include "run/dust/hoods.hpp"
 #include "run/insertion/entry.hpp"
 
 #include <algorithm>
@@ -75,7 +74,6 @@ particles::Dem& Branch::their_particles() {
   if (their_particles_) return *their_particles_;
   const scenario::Setup& setup = origin().scenario().setup;
   their_particles_ = make_particles(setup, their_models(), origin().scenario().dust);
-  their_particles_->draw_out_at(openings_of(setup, origin().scenario().dust));
   std::size_t contacts = 0;
   const auto count = [&](std::string_view name, std::vector<std::int64_t>& values) {
     if (name.ends_with("_a")) contacts = values.size();

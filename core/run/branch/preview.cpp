@@ -3,7 +3,6 @@
 
 #include "run/branch/branch.hpp"
 #include "run/branch/origin.hpp"
-#include "run/dust/hoods.hpp"
 #include "run/folder/input_digests.hpp"
 
 namespace dust::run {
@@ -21,7 +20,6 @@ std::optional<StartFacts> preview_start(const scenario::ReadResult& read,
   Models models = make_models(read.setup, registry);
   branch.add_diameters(models.class_diameters);
   const auto particles = make_particles(read.setup, models, read.dust);
-  particles->draw_out_at(openings_of(read.setup, read.dust));
   branch.check(models, *particles);
   return StartFacts{.state = branch.origin().state().file().string(),
                     .time = branch.origin().time(),

@@ -49,7 +49,6 @@ LiberationStage::LiberationStage(const scenario::Setup& setup,
     coarse_graining_.push_back(m.coarse_graining);
   }
   law_->prepare(preflight::dust_properties(setup, *dust_setup.field));
-  if (law_->needs_wind()) particles_.keep_wind();
   causes_ = causes_of(particles_.wall_names(), law_->needs_wind());
   set_free_.resize(causes_.size() * classes_);
   impact_energy_.resize(1 + particles_.wall_names().size());

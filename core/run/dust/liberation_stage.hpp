@@ -25,7 +25,7 @@ namespace dust::run {
 /// any number of threads.
 class LiberationStage {
  public:
-  /// All but the law are kept by reference.
+  /// All but the law are kept by reference; the particles keep the wind for a law that needs it.
   LiberationStage(const scenario::Setup& setup, const scenario::DustSetup& dust_setup,
                   std::unique_ptr<sdk::LiberationLaw> law, DustStage& dust,
                   particles::Dem& particles);

@@ -33,7 +33,7 @@ FaceTable::FaceTable(const fluid::Grid& grid) : grid_(grid), throughflow_(grid) 
   }
 }
 
-void FaceTable::publish(const fluid::FluidSolver& solver, const fluid::CellField& void_fraction,
+void FaceTable::publish(fluid::FluidSolver& solver, const fluid::CellField& void_fraction,
                         Moment moment) {
   const fluid::FaceField open = solver.passable_area();
   if (moment == Moment::after_step) {

@@ -17,8 +17,7 @@ class FaceTable {
 
   /// Before a step there is the velocity alone: it may not obey continuity yet.
   enum class Moment { before_step, after_step };
-  void publish(const fluid::FluidSolver& solver, const fluid::CellField& void_fraction,
-               Moment moment);
+  void publish(fluid::FluidSolver& solver, const fluid::CellField& void_fraction, Moment moment);
   [[nodiscard]] sdk::FaceColumns columns() const;
 
  private:

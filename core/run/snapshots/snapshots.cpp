@@ -8,7 +8,7 @@ void Snapshots::take(particles::Dem& dem, double time) {
   if (wanted_.contacts) contacts_.publish(dem.contacts(time), particles_.order());
 }
 
-void Snapshots::take(const fluid::FluidSolver& fluid, const fluid::CellField& void_fraction,
+void Snapshots::take(fluid::FluidSolver& fluid, const fluid::CellField& void_fraction,
                      FaceTable::Moment moment) {
   fluid_->publish(fluid, void_fraction);
   if (faces_) faces_->publish(fluid, void_fraction, moment);

@@ -38,7 +38,7 @@ class Snapshots {
   void note_insertions(const particles::GrainRows& rows) { particles_.note_insertions(rows); }
   void take(particles::Dem& dem, double time);
   /// Not while somebody else asks for what passes the faces, where they are copied.
-  void take(const fluid::FluidSolver& fluid, const fluid::CellField& void_fraction,
+  void take(fluid::FluidSolver& fluid, const fluid::CellField& void_fraction,
             FaceTable::Moment moment);
   [[nodiscard]] bool has_face_fluxes() const { return faces_.has_value(); }
 

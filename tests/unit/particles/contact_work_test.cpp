@@ -30,7 +30,7 @@ DemRig dusty_rig() {
   rig.material(2500, 2e7, 0.3);
   rig.material(7800, 2e7, 0.3);
   rig.diameters = {k_diameter};
-  rig.dust_shares = {{0.01}, {}};
+  rig.options.dust_shares = {{0.01}, {}};
   return rig;
 }
 
@@ -225,7 +225,7 @@ TEST_CASE("a small grain on finer steps shall share its losses with the large on
 TEST_CASE("dust on grains shall be booked from its coming to its leaving") {
   DemRig rig = dusty_rig();
   rig.law(0, 0, 0.5, 0.4);
-  rig.dust_shares = {{0.01, 0.002}, {}};
+  rig.options.dust_shares = {{0.01, 0.002}, {}};
   const auto dem = rig.make();
   dem->insert({{{.position = {0, 0, 0}, .diameter = k_diameter},
                 {.position = {0.999, 0, 0}, .velocity = {1, 0, 0}, .diameter = k_diameter},

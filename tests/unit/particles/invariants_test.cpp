@@ -195,7 +195,7 @@ TEST_CASE("buoyancy shall reduce the weight and drag shall be integrated exactly
   rig.law(sand, sand, 0.9, 0.5);
   rig.diameters = {10e-6, 600e-6};
   rig.setup.gravity = {0, 0, -9.81};
-  rig.fluid_density = 1000.0;
+  rig.options.fluid_density = 1000.0;
   rig.has_fluid = true;
   auto dem = rig.make();
   for (const double d : {10e-6, 600e-6})

@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <stdexcept>
+
 using dust::particles::NewGrain;
 using namespace dust::test;
 
@@ -73,6 +75,8 @@ TEST_CASE("a resumed DEM shall give the same bits as one that went on") {
     Stepper stepper(*first);
     stepper.step(stop);
     MemoryArchive archive;
+    CHECK_THROWS_AS(first->save(archive), std::logic_error);
+    first->synchronise();
     first->save(archive);
     auto second = box(second_rig);
     second->load(archive);
@@ -102,6 +106,7 @@ TEST_CASE("contacts that came from another run shall outlive a checkpoint before
   auto second = box(rigs[1]);
   const dust::particles::LawTransfer law{
       .law = 0, .keeps_contact = true, .keeps_rolling = true, .keeps_cohesion = true};
+  first->synchronise();
   second->transfer_from(*first, 0.0, std::vector{law});
   MemoryArchive archive;
   second->save(archive);

@@ -144,6 +144,7 @@ TEST_CASE("a run resumed while a bridge is stretched shall go on with the same b
   Pair p(-1e-9);
   while (p.gap() < 0.5 * k_break) p.stepper->step();
   MemoryArchive archive;
+  p.dem->synchronise();
   p.dem->save(archive);
   auto resumed = Pair::make();
   resumed->load(archive);

@@ -67,6 +67,7 @@ double pulled(const Case& c, double share) {
     Stepper stepper(*dem);
     while (stepper.time() < 2e-3) stepper.step();
     archive = MemoryArchive();
+    dem->synchronise();
     dem->save(archive);
     end = grain(*dem, 0).position.z;
   }

@@ -240,6 +240,7 @@ TEST_CASE("a run that is saved and loaded shall go on with its account") {
   Bed whole(1.0);
   whole.until(0.005);
   MemoryArchive archive;
+  whole.dem->synchronise();
   whole.dem->save(archive);
   const EnergyBalance then = whole.dem->energy();
   Bed second(1.0);

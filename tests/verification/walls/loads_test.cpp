@@ -20,8 +20,8 @@ TEST_CASE("a wall shall carry the weight of what rests on it, at its place") {
   WallRig rig(0.3, 0.4, k_diameter);
   rig.setup.gravity = {0, 0, -k_g};
   rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}}).group = "floor";
+  rig.options.records_wall_loads = true;
   auto dem = rig.make();
-  dem->record_wall_loads();
   const double rest = 0.5 * k_diameter - rig.resting_overlap();
   // Of weight 0.5 the second: half a real grain.
   dem->insert(std::vector<NewGrain>{
@@ -51,8 +51,8 @@ TEST_CASE("a wall shall carry the weight of what rests on it, at its place") {
 TEST_CASE("an impact shall give a wall the momentum it takes from the grain, and be seen once") {
   WallRig rig(0.5, 0.3, k_diameter);
   rig.body("box", {{"min", Vec3{-0.05, -0.05, -0.05}}, {"max", Vec3{0.05, 0.05, 0}}});
+  rig.options.records_wall_loads = true;
   auto dem = rig.make();
-  dem->record_wall_loads();
   const Vec3 before{0.8, 0, -1.0};
   dem->insert(std::vector<NewGrain>{{.position = {0.002, 0.001, 5.1e-4},
                                      .velocity = before,
@@ -92,8 +92,8 @@ TEST_CASE("a floor that lifts a grain shall spend its weight times the speed") {
   rig.setup.gravity = {0, 0, -k_g};
   rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}},
            rig.motion("translate", {{"velocity", Vec3{0, 0, 0.2}}}));
+  rig.options.records_wall_loads = true;
   auto dem = rig.make();
-  dem->record_wall_loads();
   dem->insert(std::vector<NewGrain>{{.position = {0, 0, 0.5 * k_diameter - rig.resting_overlap()},
                                      .velocity = {0, 0, 0.2},
                                      .diameter = k_diameter}});
@@ -113,8 +113,8 @@ TEST_CASE("a belt that takes a grain along shall spend what the grain gains and 
   rig.body("conveyor",
            {{"head", Vec3{0.2, 0, -0.01}}, {"tail", Vec3{-0.2, 0, -0.01}}, {"radius", 0.01}},
            rig.motion("belt", {{"speed", speed}}));
+  rig.options.records_wall_loads = true;
   auto dem = rig.make();
-  dem->record_wall_loads();
   dem->insert(std::vector<NewGrain>{
       {.position = {0, 0, 0.5 * k_diameter - rig.resting_overlap()}, .diameter = k_diameter}});
   Stepper stepper(*dem);
@@ -129,8 +129,8 @@ TEST_CASE("a grain in a corner of a vessel shall count once for the vessel") {
   WallRig rig(0.3, 0.4, k_diameter);
   rig.setup.gravity = {-4, -3, -8};
   rig.body("container", {{"min", Vec3{}}, {"max", Vec3{0.02, 0.02, 0.02}}, {"thickness", 1e-3}});
+  rig.options.records_wall_loads = true;
   auto dem = rig.make();
-  dem->record_wall_loads();
   dem->insert(
       std::vector<NewGrain>{{.position = {5.1e-4, 5.1e-4, 5.1e-4}, .diameter = k_diameter}});
   Stepper stepper(*dem);
@@ -156,8 +156,8 @@ TEST_CASE("a turning drum shall spend its torque times its spin, rolling couples
             {"radius", 0.05},
             {"thickness", 5e-3}},
            rig.motion("rotate", {{"spin_axis", Vec3{0, 1, 0}}, {"spin", k_spin}}));
+  rig.options.records_wall_loads = true;
   auto dem = rig.make();
-  dem->record_wall_loads();
   dem->insert(std::vector<NewGrain>{{.position = {0, 0, -0.048}, .diameter = 4e-3}});
   Stepper stepper(*dem);
   while (stepper.time() < 0.3) stepper.step();
@@ -176,8 +176,8 @@ TEST_CASE("a law that reaches farther than the touch shall make no impacts, nor 
                 {}, {"lubrication", {{"viscosity", 1e-12}}});
     rig.setup.gravity = {0, 0, -gravity};
     rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}});
+    rig.options.records_wall_loads = true;
     auto dem = rig.make();
-    dem->record_wall_loads();
     dem->insert(std::vector<NewGrain>{
         {.position = position, .velocity = velocity, .diameter = k_diameter}});
     Stepper stepper(*dem);
