@@ -212,6 +212,13 @@ void TaskGraph::check_writes(Digests digests, int every) {
   impl_->checked_every = every;
 }
 
+std::vector<std::string> TaskGraph::unchecked_writes() const {
+  std::set<std::string> names;
+  for (const Node& node : impl_->nodes) names.insert(node.writes.begin(), node.writes.end());
+  std::erase_if(names, [&](const std::string& name) { return impl_->digests.contains(name); });
+  return {names.begin(), names.end()};
+}
+
 void TaskGraph::build() {
   Impl& g = *impl_;
   g.check_reads();

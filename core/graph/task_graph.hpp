@@ -57,6 +57,8 @@ class TaskGraph {
   /// std::logic_error.
   using Digests = std::map<std::string, std::function<std::uint64_t()>>;
   void check_writes(Digests digests, int every = 1);
+  /// Names that nodes write and that check_writes() was given no digest of.
+  [[nodiscard]] std::vector<std::string> unchecked_writes() const;
   /// Derives the edges; throws std::logic_error on a read of a name that nobody wrote.
   void build();
   /// Runs every node once and waits; rethrows the first exception. After an exception the graph is

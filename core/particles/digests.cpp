@@ -16,6 +16,20 @@ std::uint64_t lists(const OuterList& outer, const InnerList& inner) {
   return d.value();
 }
 
+/// Where bodies stand, and when.
+std::uint64_t placements(const Conditions& conditions) {
+  Digest d;
+  d.add(&conditions.time, 1);
+  for (const Surface& s : conditions.surfaces) {
+    const bodies::Placement& place = s.place;
+    for (const sdk::Vec3& v : {place.column[0], place.column[1], place.column[2], place.shift,
+                               place.velocity, place.spin}) {
+      d.add(&v.x, 1).add(&v.y, 1).add(&v.z, 1);
+    }
+  }
+  return d.value();
+}
+
 std::uint64_t histories(const InnerList& inner) {
   Digest d;
   inner.add_histories_to(d);
@@ -36,6 +50,7 @@ Dem::Digests Dem::digests() const {
       {"contact.force", [dem] { return Digest().add(dem->tile_step.contact_force()).value(); }},
       {"contact.ghost_force", [dem] { return dem->tile_step.ghost_digest(); }},
       {"grain.force", [dem] { return dem->tile_step.deferred_digest(); }},
+      {"body.motion", [dem] { return placements(dem->conditions); }},
       {"fine.force", [dem] { return Digest().add(dem->fine_level.force()).value(); }},
       {"fine.deferred_impulse", [dem] { return dem->fine_level.deferred().digest(); }},
   };

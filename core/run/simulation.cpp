@@ -84,7 +84,7 @@ Simulation::Simulation(const scenario::Setup& setup, Models models, int check_ev
   cycle_.emplace(clock_.fluid_step(), dem_->coarse_step());
   insertion_ = std::make_unique<Insertion>(setup_, models_);
   build_dem_graph(check_every);
-  build_step_graph();
+  build_step_graph(check_every > 0);
   snapshots_.take(*dem_, clock_.end_of_last_step());
   take_fluid_snapshot(FaceTable::Moment::before_step);
 }

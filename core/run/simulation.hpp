@@ -35,8 +35,9 @@ std::unique_ptr<particles::Dem> make_particles(const scenario::Setup& setup, Mod
 /// Everything a run holds: models, particles, fluid, the two task graphs and the clock.
 class Simulation {
  public:
-  /// `check_every`, for tests, if not 0: the nodes of a grain step run one by one, and at one step
-  /// in so many one that changes what it does not declare to write is a std::logic_error.
+  /// `check_every`, for tests, if not 0: the nodes of both graphs run one by one, and at each fluid
+  /// step and one grain step in so many one that changes what it does not declare to write is a
+  /// std::logic_error.
   Simulation(const scenario::Setup& setup, Models models, int check_every = 0,
              scenario::DustSetup dust = {});
   ~Simulation();
@@ -112,6 +113,10 @@ class Simulation {
   [[nodiscard]] const graph::TaskGraph& step_graph() const { return step_graph_; }
   [[nodiscard]] const graph::TaskGraph& dem_graph() const { return dem_graph_; }
 
+  /// The state that the nodes of step_graph() name, as numbers: all that a checkpoint holds, and
+  /// what is handed on within a step.
+  [[nodiscard]] graph::TaskGraph::Digests step_digests();
+
   [[nodiscard]] SaveParts save_parts();
   [[nodiscard]] LoadParts load_parts();
 
@@ -129,9 +134,10 @@ class Simulation {
   [[nodiscard]] double steady_after_given() const;
   void build_dem_graph(int check_every);
   void add_tile_nodes();
-  void build_step_graph();
+  void build_step_graph(bool is_checked);
   void add_first_nodes();
   void add_fluid_nodes();
+  void add_fluid_digests(graph::TaskGraph::Digests& digests) const;
   void add_particle_nodes();
   void add_last_nodes();
   void add_sensor_nodes();

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/digest.hpp"
 #include "dust/sdk/airborne_dust.hpp"
 #include "run/run_checks.hpp"
 #include "run/simulation.hpp"
 
+#include <cstdint>
+#include <map>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 /// The nodes of a grain step and of a fluid step, by what they read and write.
@@ -18,7 +24,103 @@ std::vector<std::string> grains_and(std::initializer_list<const char*> more) {
   return names;
 }
 
+/// What is saved, as a number, but for what has `a_name_of_its_own`.
+class SavedDigest final : public sdk::ArchiveWriter {
+ public:
+  explicit SavedDigest(std::string_view a_name_of_its_own) : left_out_(a_name_of_its_own) {}
+  void numbers(std::string_view name, std::span<const double> values) override {
+    if (name != left_out_) digest_.add(values);
+  }
+  void integers(std::string_view, std::span<const std::int64_t> values) override {
+    digest_.add(values);
+  }
+  [[nodiscard]] std::uint64_t value() const { return digest_.value(); }
+
+ private:
+  std::string_view left_out_;
+  base::Digest digest_;
+};
+
+/// The name that nodes give a part of a checkpoint; empty: several, see step_digests().
+std::string name_of_state(const std::string& part) {
+  static const std::map<std::string, std::string> k_names = {{"clock", ""},
+                                                             {"fluid", ""},
+                                                             {"bodies", "body.removal"},
+                                                             {"grains", "grain.state"},
+                                                             {"columns", "grain.columns"},
+                                                             {"coupling", "coupling.state"},
+                                                             {"resolved", "coupling.state"},
+                                                             {"held_fluid", "fluid.held"},
+                                                             {"dust", "dust.concentration"},
+                                                             {"liberation", "dust.set_free"},
+                                                             {"dust_rates", "dust.rates"},
+                                                             {"stream_indices", "dust.indices"}};
+  if (part.starts_with("emitter.")) return "emitter.state";
+  if (part.starts_with("sensor.")) return part;
+  return k_names.at(part);
+}
+
+template <class Field>
+std::uint64_t digest_of_faces(const Field& field) {
+  base::Digest digest;
+  for (const auto& component : field.component) digest.add(component);
+  return digest.value();
+}
+
 }  // namespace
+
+graph::TaskGraph::Digests Simulation::step_digests() {
+  using Saves = std::vector<SaveParts::value_type::second_type>;
+  std::map<std::string, Saves> states;
+  for (const auto& [part, save] : save_parts()) states[name_of_state(part)].push_back(save);
+  states.erase("");
+  states["emitter.state"].push_back([this](sdk::ArchiveWriter& a) { insertion_->save(a); });
+  graph::TaskGraph::Digests digests;
+  for (auto& [name, saves] : states) {
+    digests[name] = [saves = std::move(saves)] {
+      SavedDigest digest("impulse");  // of grains: grain.fluid_impulse
+      for (const auto& save : saves) save(digest);
+      return digest.value();
+    };
+  }
+  digests["grain.fluid_impulse"] = dem_->digests().at("grain.fluid_impulse");
+  if (dust_) {
+    digests["dust.columns"] = [this] {
+      base::Digest digest;
+      for (const auto& column : dust_->columns().concentration) digest.add(column);
+      return digest.value();
+    };
+  }
+  if (fluid_) add_fluid_digests(digests);
+  return digests;
+}
+
+void Simulation::add_fluid_digests(graph::TaskGraph::Digests& digests) const {
+  const fluid::FluidSolver& solver = std::as_const(*fluid_).solver();
+  digests["fluid.velocity"] = [&solver] {
+    return base::Digest().add(solver.pressure()).value() ^ digest_of_faces(solver.velocity());
+  };
+  digests["fluid.open_fraction"] = [&solver] {
+    return base::Digest().add(solver.open_fraction()).value();
+  };
+  digests["fluid.void_fraction"] = [this] {
+    return base::Digest().add(fluid_->void_fraction()).value();
+  };
+  digests["fluid.columns"] = [this] {
+    const sdk::FluidColumns c = world().fluid;
+    base::Digest digest;
+    for (const auto& column :
+         {c.velocity_x, c.velocity_y, c.velocity_z, c.pressure, c.void_fraction, c.open_fraction}) {
+      digest.add(column);
+    }
+    return digest.value();
+  };
+  if (coupling() == nullptr) return;
+  digests["fluid.exchange"] = [this] {
+    const fluid::Exchange& exchange = coupling()->exchange();
+    return digest_of_faces(exchange.coefficient) ^ digest_of_faces(exchange.source);
+  };
+}
 
 /// The fluid that particles see.
 std::string Simulation::fluid_seen() const {
@@ -44,7 +146,8 @@ void Simulation::build_dem_graph(int check_every) {
                     [this] { refresh_drag(); }});
   }
   dem_graph_.add(
-      {"neighbour", grains_and({"contact.list", "contact.history", "fine.deferred_impulse"}),
+      {"neighbour",
+       grains_and({"contact.list", "contact.history", "fine.deferred_impulse", "body.motion"}),
        grains_and({"contact.list", "contact.history", "contact.force", "contact.ghost_force",
                    "grain.force", "fine.force", "fine.deferred_impulse"}),
        [this] { dem_->neighbours(); }});
@@ -60,8 +163,8 @@ void Simulation::add_tile_nodes() {
   const auto keeps_force = [this] { return cycle_->is_last_step(); };
   dem_graph_.add(
       {"contact",
-       {"grain.position", "grain.velocity", "contact.list", "contact.history", "body.motion"},
-       {"contact.history", "contact.force", "contact.ghost_force", "grain.force"},
+       {"grain.position", "grain.velocity", "contact.list", "contact.history"},
+       {"body.motion", "contact.history", "contact.force", "contact.ghost_force", "grain.force"},
        [this, now, keeps_force] { dem_->contact(now(), keeps_force()); }});
   dem_graph_.add(
       {"force", {"contact.ghost_force", "grain.force"}, {"grain.force", "contact.force"}, [this] {
@@ -86,17 +189,19 @@ void Simulation::add_tile_nodes() {
                        }});
 }
 
-void Simulation::build_step_graph() {
-  step_graph_.given(
-      {"emitter.state", "grain.state", "fluid.velocity", "fluid.exchange", "fluid.held"});
-  if (dust_) step_graph_.given({"dust.concentration"});
+void Simulation::build_step_graph(bool is_checked) {
+  step_graph_.given({"body.removal", "emitter.state", "grain.state", "coupling.state",
+                     "fluid.velocity", "fluid.open_fraction", "fluid.void_fraction",
+                     "fluid.exchange", "fluid.held"});
+  if (dust_) step_graph_.given({"dust.concentration", "dust.set_free"});
   add_first_nodes();
   if (fluid_) add_fluid_nodes();
   if (dust_) {
-    step_graph_.add({"dust",
-                     {"fluid.velocity", "fluid.void_fraction", "dust.concentration"},
-                     {"dust.concentration"},
-                     [this] { dust_->advance(time()); }});
+    step_graph_.add(
+        {"dust",
+         {"fluid.velocity", "fluid.open_fraction", "fluid.void_fraction", "dust.concentration"},
+         {"dust.concentration"},
+         [this] { dust_->advance(time()); }});
   }
   add_particle_nodes();
   if (dust_ && dust_->has_scavenging()) {
@@ -108,16 +213,20 @@ void Simulation::build_step_graph() {
   if (liberation_) {
     step_graph_.add({"liberation",
                      {"grain.state", "fluid.void_fraction", "dust.concentration"},
-                     {"grain.state", "dust.concentration"},
+                     {"grain.state", "dust.concentration", "dust.set_free"},
                      [this] { liberation_->advance(clock_.fluid_step()); }});
   }
   if (dust_figures_) {
-    step_graph_.add({"dust_rates", {"grain.state", "dust.concentration"}, {"dust.rates"}, [this] {
+    step_graph_.add({"dust_rates",
+                     {"grain.state", "dust.concentration", "dust.set_free"},
+                     {"dust.rates"},
+                     [this] {
                        dust_figures_->rates.sample(time() + clock_.fluid_step(),
                                                    clock_.fluid_step());
                      }});
     step_graph_.add({"stream_indices",
-                     {"grain.state", "fluid.velocity", "fluid.void_fraction", "dust.concentration"},
+                     {"grain.state", "fluid.velocity", "fluid.void_fraction", "dust.concentration",
+                      "dust.set_free"},
                      {"dust.indices"},
                      [this] {
                        dust_figures_->indices.sample(time() + clock_.fluid_step(),
@@ -126,6 +235,7 @@ void Simulation::build_step_graph() {
   }
   add_last_nodes();
   add_sensor_nodes();
+  if (is_checked) step_graph_.check_writes(step_digests());
   step_graph_.build();
 }
 
@@ -133,14 +243,18 @@ void Simulation::add_first_nodes() {
   bool has_removals = false;
   for (const auto& body : setup_.bodies) has_removals |= body.removal.has_value();
   if (has_removals) {
-    std::vector<std::string> looks_at{"grain.state"};
-    if (fluid_) looks_at.emplace_back("fluid.velocity");
-    step_graph_.add({"bodies", looks_at, looks_at, [this] { remove_bodies(); }});
+    std::vector<std::string> changes{"body.removal", "grain.state"};
+    if (fluid_) {
+      changes.insert(changes.end(), {"coupling.state", "fluid.velocity", "fluid.open_fraction",
+                                     "fluid.void_fraction", "fluid.columns"});
+    }
+    step_graph_.add(
+        {"bodies", {"body.removal", "grain.state"}, changes, [this] { remove_bodies(); }});
   }
-  step_graph_.add(
-      {"emit", {"emitter.state", "grain.state"}, {"emitter.state", "grain.state"}, [this] {
-         insert();
-       }});
+  step_graph_.add({"emit",
+                   {"emitter.state", "grain.state"},
+                   {"emitter.state", "grain.state", "grain.fluid_impulse"},
+                   [this] { insert(); }});
 }
 
 void Simulation::add_fluid_nodes() {
@@ -150,27 +264,28 @@ void Simulation::add_fluid_nodes() {
     return reads;
   };
   if (!fluid_->has_particles()) {
-    step_graph_.add(
-        {"fluid", and_dust({"fluid.velocity"}), {"fluid.velocity", "fluid.void_fraction"}, [this] {
-           advance_fluid();
-         }});
+    step_graph_.add({"fluid",
+                     and_dust({"fluid.velocity"}),
+                     {"fluid.velocity", "fluid.open_fraction", "fluid.void_fraction"},
+                     [this] { advance_fluid(); }});
     return;
   }
-  step_graph_.add({"voidage",
-                   {"grain.state", "fluid.exchange"},
-                   {"fluid.void_fraction", "fluid.exchange"},
-                   [this] { fluid_->begin_step(time(), dem_->rows()); }});
+  step_graph_.add(
+      {"voidage",
+       {"grain.state", "coupling.state"},
+       {"fluid.open_fraction", "fluid.void_fraction", "fluid.exchange", "coupling.state"},
+       [this] { fluid_->begin_step(time(), dem_->rows()); }});
   if (fluid_->is_lagged()) {
     step_graph_.add({"fluid",
                      and_dust({"fluid.void_fraction", "fluid.exchange", "fluid.velocity"}),
-                     {"fluid.velocity"},
+                     {"fluid.velocity", "fluid.open_fraction"},
                      [this] { advance_fluid(); }});
     return;
   }
   step_graph_.add(
       {"fluid",
        and_dust({"fluid.void_fraction", "fluid.exchange", "fluid.velocity", "grain.state"}),
-       {"fluid.velocity", "fluid.exchange"},
+       {"fluid.velocity", "fluid.open_fraction", "coupling.state"},
        [this] {
          advance_fluid();
          fluid_->evaluate_drag(dem_->rows());
@@ -179,23 +294,23 @@ void Simulation::add_fluid_nodes() {
 
 void Simulation::add_particle_nodes() {
   std::vector<std::string> seen_by_grains{"grain.state"};
+  std::vector<std::string> changed{"grain.state", "grain.fluid_impulse"};
   const bool has_exchange = fluid_ && fluid_->has_particles();
   if (has_exchange) {
     seen_by_grains.push_back(fluid_seen());
-    seen_by_grains.emplace_back("fluid.void_fraction");
+    seen_by_grains.insert(seen_by_grains.end(), {"fluid.void_fraction", "coupling.state"});
+    changed.emplace_back("coupling.state");
   }
-  step_graph_.add({"dem_cycle", seen_by_grains, {"grain.state", "grain.fluid_impulse"}, [this] {
-                     run_dem_cycle();
-                   }});
+  step_graph_.add({"dem_cycle", seen_by_grains, changed, [this] { run_dem_cycle(); }});
   if (has_exchange) {
-    step_graph_.add(
-        {"collect",
-         {"grain.state", "grain.fluid_impulse", "fluid.void_fraction", "fluid.velocity"},
-         {"fluid.exchange", "grain.fluid_impulse"},
-         [this] {
-           if (fluid_->is_lagged()) fluid_->evaluate_drag(dem_->rows());
-           fluid_->end_step(dem_->rows());
-         }});
+    step_graph_.add({"collect",
+                     {"grain.state", "grain.fluid_impulse", "coupling.state", "fluid.void_fraction",
+                      "fluid.velocity"},
+                     {"coupling.state", "grain.fluid_impulse"},
+                     [this] {
+                       if (fluid_->is_lagged()) fluid_->evaluate_drag(dem_->rows());
+                       fluid_->end_step(dem_->rows());
+                     }});
   }
   if (has_lagged_fluid()) {
     step_graph_.add({"hold_fluid", {"fluid.velocity"}, {"fluid.held"}, [this] {
@@ -206,7 +321,7 @@ void Simulation::add_particle_nodes() {
 
 void Simulation::add_last_nodes() {
   if (fluid_) {
-    std::vector<std::string> seen{"fluid.velocity", "fluid.void_fraction"};
+    std::vector<std::string> seen{"fluid.velocity", "fluid.open_fraction", "fluid.void_fraction"};
     // Not while the dust asks for what passes the faces, too.
     if (dust_ && snapshots_.has_face_fluxes()) seen.emplace_back("dust.concentration");
     step_graph_.add({"publish_fluid", seen, {"fluid.columns"}, [this] {

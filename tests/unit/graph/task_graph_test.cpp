@@ -150,6 +150,7 @@ TEST_CASE("a node that changes what it does not declare shall be named") {
   Tiles lying(false);
   lying.graph.check_writes(
       {{"velocity", [&] { return static_cast<std::uint64_t>(lying.contact); }}});
+  CHECK(lying.graph.unchecked_writes() == std::vector<std::string>{"force", "position"});
   lying.graph.build();
   CHECK_THROWS_WITH_AS(lying.graph.run(),
                        "graph 'tiles': node 'contact' has changed 'velocity', which it does not "
