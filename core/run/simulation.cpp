@@ -123,34 +123,32 @@ void Simulation::begin_sensors(std::span<const std::string> going_on) {
   }
 }
 
+void Simulation::begin_dust_figures_at(double time) {
+  dust_figures_->rates.begin_at(time);
+  dust_figures_->indices.begin_at(time);
+}
+
 void Simulation::begin_dust_figures() {
   if (!dust_figures_ || steady_after_given() > 0.0) return;
   const double begin = time();
-  const double middle = begin + 0.5 * (setup_.time.end - begin);
-  dust_figures_->rates.begin_at(middle);
-  dust_figures_->indices.begin_at(middle);
+  begin_dust_figures_at(begin + 0.5 * (setup_.time.end - begin));
 }
 
 std::string Simulation::go_on_with_dust_figures(double begin) {
   if (!dust_figures_ || steady_after_given() > 0.0) return {};
-  constexpr double k_rounding = 0.01;
   const double step = clock_.fluid_step();
-  const double before = dust_figures_->rates.steady_after();
+  const SteadyWindow before = dust_figures_->rates.steady();
   const double middle = begin + 0.5 * (setup_.time.end - begin);
-  if (std::abs(middle - before) < k_rounding * step) return {};
+  if (std::abs(middle - before.begin()) < SteadyWindow::k_rounding * step) return {};
   // Means that had not begun know no amounts to take the first rate from.
-  const bool had_begun = before <= time() + k_rounding * step;
+  const bool had_begun = before.holds(time(), step);
   const double earliest = had_begun ? time() : time() + step;
-  const bool is_in_time = middle >= earliest - k_rounding * step;
-  if (is_in_time || !had_begun) {
-    const double first = std::max(middle, earliest);
-    dust_figures_->rates.begin_at(first);
-    dust_figures_->indices.begin_at(first);
-  }
+  const bool is_in_time = SteadyWindow(earliest).holds(middle, step);
+  if (is_in_time || !had_begun) begin_dust_figures_at(std::max(middle, earliest));
   if (is_in_time) return {};
   const auto seconds = [](double value) { return base::digits_text(value, 10) + " s"; };
   return "dust_rates and stream_indices are means from " +
-         seconds(dust_figures_->rates.steady_after()) + " on, not from the middle of the run, " +
+         seconds(dust_figures_->rates.steady().begin()) + " on, not from the middle of the run, " +
          seconds(middle) + ", which had passed when it was given its end of " +
          seconds(setup_.time.end) +
          ": in a run that is to be extended, dust.steady_after says when they begin";

@@ -132,6 +132,7 @@ class Simulation {
   };
   /// [s] By the scenario; 0: it does not say.
   [[nodiscard]] double steady_after_given() const;
+  void begin_dust_figures_at(double time);
   void build_dem_graph(int check_every);
   void add_tile_nodes();
   void build_step_graph(bool is_checked);

@@ -27,7 +27,7 @@ DustRates::DustRates(const scenario::Setup& setup, const DustStage& dust,
     : dust_(dust),
       liberation_(liberation),
       particles_(particles),
-      steady_after_(steady_after),
+      steady_(steady_after),
       balances_(dust.field().classes()) {
   find_parts(setup);
   const std::size_t columns = 1 + parts_.size() * (1 + balances_.size());
@@ -97,19 +97,17 @@ void DustRates::find_totals(std::vector<double>& totals) const {
 }
 
 void DustRates::begin_at(double time) {
-  steady_after_ = time;
+  steady_ = SteadyWindow(time);
   means_ = sdk::BatchMeans(now_.size());
 }
 
 void DustRates::sample(double time, double step) {
-  // A hundredth of a step: times are sums of steps.
-  constexpr double k_rounding = 0.01;
   const double begin = time - step;
-  if (time < steady_after_ - k_rounding * step) return;
+  if (!steady_.holds(time, step)) return;
   for (std::size_t n = 0; n < balances_.size(); ++n) balances_[n] = dust_.field().gone(n);
   find_totals(now_);
-  const bool is_known = std::abs(before_time_.value_or(begin) - begin) < k_rounding * step;
-  if (is_known && begin >= steady_after_ - k_rounding * step) {
+  const double since = std::abs(before_time_.value_or(begin) - begin);
+  if (since < SteadyWindow::k_rounding * step && steady_.holds(begin, step)) {
     for (std::size_t c = 0; c < now_.size(); ++c) before_[c] = (now_[c] - before_[c]) / step;
     means_.add(before_, step);
   }
@@ -156,7 +154,7 @@ void DustRates::add_parts(SaveParts& parts) const {
   parts.emplace_back("dust_rates", [this](sdk::ArchiveWriter& a) {
     // Where a run that started from another began its means, nothing else tells.
     std::vector<double> before = before_;
-    before.push_back(steady_after_);
+    before.push_back(steady_.begin());
     a.numbers("before", before);
     means_.save(a, "means");
   });
@@ -167,7 +165,7 @@ void DustRates::add_parts(LoadParts& parts) {
     before_ = a.numbers("before");
     // Older checkpoints do not hold it.
     if (before_.size() > now_.size()) {
-      steady_after_ = before_.back();
+      steady_ = SteadyWindow(before_.back());
       before_.pop_back();
     }
     before_time_.reset();

@@ -7,6 +7,7 @@
 #include "run/archive_parts.hpp"
 #include "run/dust/dust_stage.hpp"
 #include "run/dust/liberation_stage.hpp"
+#include "run/dust/steady_window.hpp"
 #include "setup/setup.hpp"
 
 #include <functional>
@@ -31,7 +32,7 @@ class DustRates {
 
   /// Means begin anew, at `time` [s].
   void begin_at(double time);
-  [[nodiscard]] double steady_after() const { return steady_after_; }  ///< [s]
+  [[nodiscard]] const SteadyWindow& steady() const { return steady_; }
   /// At the end of a fluid step of `step` [s], at `time` [s].
   void sample(double time, double step);
 
@@ -58,7 +59,7 @@ class DustRates {
   const DustStage& dust_;
   const LiberationStage* liberation_;
   const particles::Dem& particles_;
-  double steady_after_;
+  SteadyWindow steady_;
   std::vector<airborne::DustBalance> balances_;  ///< by class, of the last step looked at
   std::vector<Part> parts_;                      ///< in the order of their ways
   /// [kg] since the start: material released; by way the sum of its parts, then each part; of each

@@ -24,7 +24,7 @@ StreamIndices::StreamIndices(const scenario::Setup& setup, const FluidStage& flu
       dust_(dust),
       liberation_(liberation),
       particles_(particles),
-      steady_after_(steady_after),
+      steady_(steady_after),
       first_level_(k_power + (liberation != nullptr ? liberation->impact_causes() : 0)) {
   for (int d = 0; d < 3; ++d) {
     if (std::abs(setup.gravity[d]) > std::abs(setup.gravity[axis_])) axis_ = d;
@@ -77,17 +77,15 @@ void StreamIndices::find_air() {
 }
 
 void StreamIndices::begin_at(double time) {
-  steady_after_ = time;
+  steady_ = SteadyWindow(time);
   means_ = sdk::BatchMeans(now_.size());
 }
 
 void StreamIndices::sample(double time, double step) {
-  // A hundredth of a step: times are sums of steps.
-  constexpr double k_rounding = 0.01;
   const double fed = particles_.balance().mass_emitted;
   const std::optional<double> before = fed_;
   fed_ = fed;
-  if (!before || time - step < steady_after_ - k_rounding * step) return;
+  if (!before || !steady_.holds(time - step, step)) return;
   std::fill(now_.begin(), now_.end(), 0.0);
   now_[k_load] = (fed - *before) / step;
   for (std::size_t n = k_power; n < first_level_; ++n) {
@@ -180,7 +178,7 @@ void StreamIndices::report(sdk::FigureSink& sink) const {
 void StreamIndices::add_parts(SaveParts& parts) const {
   parts.emplace_back("stream_indices", [this](sdk::ArchiveWriter& a) {
     // As in DustRates.
-    const double numbers[] = {fed_.value_or(-1.0), steady_after_};
+    const double numbers[] = {fed_.value_or(-1.0), steady_.begin()};
     a.numbers("fed", numbers);
     means_.save(a, "means");
   });
@@ -190,7 +188,7 @@ void StreamIndices::add_parts(LoadParts& parts) {
   parts.emplace_back("stream_indices", [this](sdk::ArchiveReader& a) {
     const std::vector<double> numbers = a.numbers("fed");
     const double fed = numbers.at(0);
-    if (numbers.size() > 1) steady_after_ = numbers[1];
+    if (numbers.size() > 1) steady_ = SteadyWindow(numbers[1]);
     fed_ = fed < 0.0 ? std::nullopt : std::optional<double>(fed);
     means_.load(a, "means");
     if (means_.columns() != now_.size()) {

@@ -7,6 +7,7 @@
 #include "run/archive_parts.hpp"
 #include "run/dust/dust_stage.hpp"
 #include "run/dust/liberation_stage.hpp"
+#include "run/dust/steady_window.hpp"
 #include "run/fluid_stage.hpp"
 #include "setup/setup.hpp"
 
@@ -70,7 +71,7 @@ class StreamIndices {
   const DustStage& dust_;
   const LiberationStage* liberation_;
   particles::Dem& particles_;  ///< looked at only
-  double steady_after_;
+  SteadyWindow steady_;
   int axis_ = 2;               ///< nearest to gravity
   double down_ = -1.0;         ///< sign of gravity along it
   std::size_t levels_ = 0;     ///< none without gravity
