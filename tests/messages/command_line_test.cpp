@@ -316,6 +316,42 @@ TEST_CASE("check shall warn of cells far from cubic and of momentum set III") {
                 text);
 }
 
+TEST_CASE(
+    "check shall say that an impact after a fall lasts few steps, and what makes shorter ones") {
+  // The steps are made for 0.5 m/s where nothing else is said; the fall ends at 7.7 m/s.
+  const auto fall = [](const std::string& expected_speed) {
+    const fs::path file =
+        fs::temp_directory_path() / ("dust_fall_" + std::to_string(::getpid()) + ".yaml");
+    const fs::path out = file.string() + ".out";
+    std::ofstream(file) << "name: fall\ntime: {end: 1 s, fluid_step: 1 ms, output_every: 100 ms" +
+                               expected_speed +
+                               "}\ngravity: [0, 0, -9.81]\n"
+                               "domain: {min: [0, 0, 0], max: [1, 1, 3 m], boundaries: {"
+                               "left: {grains: open}, right: {grains: open}, "
+                               "front: {grains: open}, back: {grains: open}, "
+                               "bottom: {grains: wall, material: ore}, top: {grains: open}}}\n"
+                               "materials: {ore: {density: 3200, young_modulus: 100 MPa, "
+                               "poisson_ratio: 0.25}}\n"
+                               "interactions: [{between: [ore, ore], contact: {model: "
+                               "hertz_mindlin, restitution: 0.5, friction: 0.5}}]\n"
+                               "emitters: {lump: {model: single, material: ore, "
+                               "positions: [[0.5, 0.5, 2.9 m]], diameters: [40 mm]}}\n"
+                               "fluid: none\n";
+    const int status = std::system(
+        ("env -u DUST_PLUGIN_PATH " DUST_ENGINE " check " + file.string() + " > " + out.string())
+            .c_str());
+    const std::string text = text_of(out);
+    fs::remove(file);
+    fs::remove(out);
+    CHECK(status == 0);
+    return text;
+  };
+  const std::string said = "steps, which costs some per cent of its restitution";
+  const std::string slow = fall("");
+  CHECK_MESSAGE(slow.find(said) != std::string::npos, slow);
+  CHECK(fall(", expected_speed: 8 m/s").find(said) == std::string::npos);
+}
+
 TEST_CASE("check shall draw the set-up as a picture where one is asked for") {
   const fs::path file = fs::temp_directory_path() / "dust_setup.svg";
   const std::string command = "check " + k_scenario + " -o " + file.string();

@@ -16,6 +16,10 @@ using sdk::Vec3;
 /// Product of two normals below which they look away from each other: the walls of a right-angled
 /// edge do not, however a file rounds its vertices.
 constexpr double k_look_away = -0.05;
+/// And above which they are those of one plane.
+constexpr double k_same_plane = 1.0 - 1e-9;
+/// Distance from a surface (in cells) at which one goes round an edge of it.
+constexpr double k_round = 0.02;
 /// A point this close to a surface (in cells) counts as being on it, so inside the body.
 constexpr double k_on_surface = 1e-6;
 /// Openings smaller than this are closed, larger than one minus this are whole.
@@ -25,6 +29,8 @@ constexpr int k_sub_boxes = 8;
 constexpr int k_block = k_sub_boxes / 2;
 /// Distance from a surface (in cells) of the points that stand for cells with their centre inside.
 constexpr double k_beside = 1e-3;
+/// Walls that one is pushed out of in a corner.
+constexpr int k_ways_out = 6;
 /// Share of the distance that a step goes: a sheet is met on the side one comes from.
 constexpr double k_stride = 0.99;
 /// By how much more a distance is allowed for to change than one goes, for shapes whose distance is
@@ -32,8 +38,9 @@ constexpr double k_stride = 0.99;
 constexpr double k_not_quite_one = 1.5;
 /// Whether a block of sub-boxes is all of one kind.
 enum class Whole : std::uint8_t { no, open, closed };
-/// Steps after which the way along a surface counts as free: each is as long as the distance.
-constexpr int k_max_steps = 200;
+/// Steps along a straight way, each as long as the distance from the surfaces; for ways that come
+/// near one at a small angle more.
+constexpr int k_few_steps = 200, k_more_steps = 4000;
 constexpr double k_far = std::numeric_limits<double>::max();
 
 /// The sub-boxes of a box.
@@ -256,39 +263,84 @@ double BodyField::wall_distance(Vec3 from, Vec3 to) const {
 }
 
 std::optional<Vec3> BodyField::outside(Vec3 centre) const {
-  const Hit hit = nearest(centre);
   const double beside = k_beside * smallest_;
-  if (hit.distance >= beside) return centre;
-  const Vec3 p = centre + (beside - hit.distance) * hit.normal;
-  if (nearest(p).distance < 0.5 * beside) return std::nullopt;
-  return p;
+  Vec3 p = centre;
+  Hit hit = nearest(p);
+  if (hit.distance >= beside) return p;
+  // In a corner the way out of one wall leads along another, or into it.
+  for (int way_out = 0; way_out < k_ways_out; ++way_out) {
+    p += (beside - hit.distance) * hit.normal;
+    hit = nearest(p);
+    if (hit.distance >= 0.5 * beside) return p;
+  }
+  return std::nullopt;
 }
 
-bool BodyField::meets(const Near& near, Vec3 from, Vec3 along, double length, double& way,
-                      Hit& hit) const {
-  way = 0.0;
-  for (int step = 0; step < k_max_steps && way < length; ++step) {
-    hit = near.nearest(from + way * along);
-    if (hit.distance <= 0.1 * k_beside * smallest_) return true;
-    way += k_stride * hit.distance;
+BodyField::Met BodyField::meet(const Near& near, Vec3 from, Vec3 to, int steps_left) const {
+  Met met;
+  const double length = norm(to - from);
+  if (!(length > 0.0)) return met;
+  const Vec3 along = (to - from) / length;
+  for (; steps_left > 0 && met.way < length; --steps_left) {
+    met.hit = near.nearest(from + met.way * along);
+    if (met.hit.distance <= 0.1 * k_beside * smallest_) {
+      met.end = Met::End::surface;
+      return met;
+    }
+    met.way += k_stride * met.hit.distance;
   }
-  return false;
+  if (met.way < length) met.end = Met::End::unknown;
+  return met;
 }
 
 std::optional<double> BodyField::passes_through(Vec3 from, Vec3 to) const {
-  const double length = norm(to - from);
-  if (!(length > 0.0)) return std::nullopt;
-  const Vec3 along = (to - from) / length;
-  const Near near(*this, 0.5 * (from + to), 0.5 * length);
-  double way = 0.0;
-  double way_back = 0.0;
-  Hit in;
-  Hit out;
-  if (!meets(near, from, along, length, way, in)) return std::nullopt;
-  if (!meets(near, to, -along, length, way_back, out)) return std::nullopt;
-  // Through a thin body the two surfaces look away from each other; a chord's look the same way.
-  if (dot(in.normal, out.normal) > k_look_away) return std::nullopt;
-  return way;
+  // The edge that a chord leads round lies up to its length away.
+  const Near near(*this, 0.5 * (from + to), norm(to - from));
+  Met in = meet(near, from, to, k_few_steps);
+  if (in.end == Met::End::free) return std::nullopt;
+  Met out = meet(near, to, from, k_few_steps);
+  if (in.end == Met::End::unknown || out.end == Met::End::unknown) {
+    // Along a surface, in steps as short as the distance from it: the same a little farther off.
+    from = away(near, from);
+    to = away(near, to);
+    in = meet(near, from, to, k_more_steps);
+    out = meet(near, to, from, k_more_steps);
+  }
+  if (in.end != Met::End::surface || out.end != Met::End::surface) return std::nullopt;
+  // Through a thin body the two surfaces look away from each other. Otherwise it is the chord of an
+  // edge or of a round body, or leads from the one side of an edge between two walls to the other.
+  const Vec3 along = (to - from) / norm(to - from);
+  const bool is_chord = dot(in.hit.normal, out.hit.normal) > k_look_away &&
+                        leads_round(near, {from + in.way * along, in.hit.normal},
+                                    {to - out.way * along, out.hit.normal});
+  return is_chord ? std::nullopt : std::optional<double>(in.way);
+}
+
+/// A place at `k_round` from the surface that a place beside it is connected with, or that itself.
+Vec3 BodyField::away(const Near& near, Vec3 place) const {
+  const double wanted = k_round * smallest_;
+  const Hit hit = near.nearest(place);
+  if (hit.distance >= wanted) return place;
+  const Vec3 farther = place + (wanted - hit.distance) * hit.normal;
+  return near.nearest(farther).distance >= 0.5 * wanted ? farther : place;
+}
+
+/// Whether one gets from one place of a surface to the other along it, over the edge in which the
+/// planes through them meet.
+bool BodyField::leads_round(const Near& near, const Place& in, const Place& out) const {
+  const double together = dot(in.normal, out.normal);
+  if (together > k_same_plane) return true;
+  const double above = k_round * smallest_;
+  const double height = dot(in.point - out.point, out.normal);
+  const double rest = 1.0 - together * together;
+  const double b = (above - height - together * above) / rest;
+  const Vec3 edge = in.point + (above - together * b) * in.normal + b * out.normal;
+  return is_free(near, in.point + above * in.normal, edge) &&
+         is_free(near, out.point + above * out.normal, edge);
+}
+
+bool BodyField::is_free(const Near& near, Vec3 from, Vec3 to) const {
+  return meet(near, from, to, k_few_steps).end == Met::End::free;
 }
 
 }  // namespace dust::fluid

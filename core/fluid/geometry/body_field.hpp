@@ -66,8 +66,21 @@ class BodyField {
   /// The bodies that may be nearest to a point within `reach` of p, in the order of nearest(): of
   /// many, all of them.
   class Near;
-  [[nodiscard]] bool meets(const Near& near, sdk::Vec3 from, sdk::Vec3 along, double length,
-                           double& way, Hit& hit) const;
+  /// On a surface.
+  struct Place {
+    sdk::Vec3 point, normal;
+  };
+  [[nodiscard]] bool leads_round(const Near& near, const Place& in, const Place& out) const;
+  [[nodiscard]] bool is_free(const Near& near, sdk::Vec3 from, sdk::Vec3 to) const;
+  [[nodiscard]] sdk::Vec3 away(const Near& near, sdk::Vec3 place) const;
+  /// What a straight way from a place in the fluid meets.
+  struct Met {
+    enum class End { free, surface, unknown };
+    End end = End::free;
+    double way = 0.0;  ///< [m] to there
+    Hit hit;
+  };
+  [[nodiscard]] Met meet(const Near& near, sdk::Vec3 from, sdk::Vec3 to, int steps_left) const;
 
   std::vector<Placed> static_bodies_;
   std::vector<Placed> moving_bodies_;

@@ -178,9 +178,11 @@ class HertzMindlin final : public sdk::ContactLaw {
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
-    s.number(&Parameters::restitution, "restitution", sdk::dimension::none,
-             "Ratio of the speeds after and before a head-on collision; realised exactly, because "
-             "the normal force may attract while the contact opens.")
+    s.number(
+         &Parameters::restitution, "restitution", sdk::dimension::none,
+         "Ratio of the speeds after and before a head-on collision; realised by the law, because "
+         "the normal force may attract while the contact opens, and within 0.02 by the default "
+         "step at time.expected_speed.")
         .symbol("e")
         .above(0)
         .at_most(1);

@@ -97,6 +97,10 @@ class TurnedBox final : public bodies::OnePart<TurnedBox> {
                  (1.0 - std::cos(angle)) * dot(e, v) * e;
     }
   }
+  /// A vector given along its edges.
+  [[nodiscard]] sdk::Vec3 turned(sdk::Vec3 v) const {
+    return v.x * axis_[0] + v.y * axis_[1] + v.z * axis_[2];
+  }
   [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 p) const override {
     sdk::Vec3 out;
     sdk::Vec3 largest_normal;
@@ -121,6 +125,28 @@ class TurnedBox final : public bodies::OnePart<TurnedBox> {
   sdk::Vec3 centre_;
   sdk::Vec3 half_;
   sdk::Vec3 axis_[3];
+};
+
+/// The walls of a closed vessel: a turned box without the smaller one in it.
+class Vessel final : public bodies::OnePart<Vessel> {
+ public:
+  Vessel(sdk::Vec3 centre, sdk::Vec3 half, double wall, sdk::Vec3 about, double angle)
+      : outer_(centre, half, about, angle),
+        inner_(centre, half - sdk::Vec3{wall, wall, wall}, about, angle) {}
+  [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 p) const override {
+    const bodies::SurfacePoint outer = outer_.nearest(p);
+    const bodies::SurfacePoint inner = inner_.nearest(p);
+    return outer.distance > -inner.distance ? outer
+                                            : bodies::SurfacePoint{-inner.distance, -inner.normal};
+  }
+  [[nodiscard]] bodies::Triangles triangles(sdk::Vec3, sdk::Vec3, double) const override {
+    return {};
+  }
+  [[nodiscard]] sdk::Vec3 lateral_axis() const override { return {0, 1, 0}; }
+
+ private:
+  TurnedBox outer_;
+  TurnedBox inner_;
 };
 
 /// Everything between two parallel planes.
