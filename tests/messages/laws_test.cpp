@@ -296,7 +296,7 @@ TEST_CASE("an unknown cohesion shall be told with all there are") {
         "s.yaml:21:23: error: interactions[0].cohesion.model: unknown cohesion model 'jkrs'; did "
         "you mean 'jkr'? (cohesion models: dmt, jkr, liquid_bridge, lubrication, sjkr); plugins "
         "were looked for "
-        "in " DUST_TEST_PLUGINS);
+        "in " DUST_TEST_PLUGINS " (--plugin-path and DUST_PLUGIN_PATH name more folders)");
 }
 
 TEST_CASE("a corner without a unit beside one in mm shall be asked about") {
