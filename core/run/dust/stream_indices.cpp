@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/dust/stream_indices.hpp"
 
+#include "dust/sdk/ratio_of_means.hpp"
 #include "run/dust/dust_rates.hpp"
 
 #include <algorithm>
@@ -123,7 +124,7 @@ void StreamIndices::report_impacts(sdk::FigureSink& sink) const {
   for (std::size_t n = k_power; n < first_level_; ++n) {
     if (means_.mean(n) > 0.0) {
       figures(liberation_->causes()[n - k_power], means_.mean(n), means_.error(n),
-              means_.ratio_error(n, k_load));
+              sdk::error_of_ratio(means_, n, k_load));
     }
   }
 }
@@ -144,9 +145,9 @@ void StreamIndices::report_levels(sdk::FigureSink& sink) const {
   sink.figure("entrained_air/flow", air(most), "m3/s", error,
               sdk::detail(sdk::Quantity::volume_rate));
   sink.figure("entrained_air/per_load", is_even ? k_tonne / load() * air(most) : k_unknown, "m3/t",
-              is_even
-                  ? sdk::scaled_error(means_.ratio_error(column(most, air_flow), k_load), k_tonne)
-                  : sdk::k_feed_not_even,
+              is_even ? sdk::scaled_error(
+                            sdk::error_of_ratio(means_, column(most, air_flow), k_load), k_tonne)
+                      : sdk::k_feed_not_even,
               sdk::FigureRole{});
   sink.figure("entrained_air/height", height(most), "m", sdk::k_no_estimate,
               sdk::detail(sdk::Quantity::length));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dust/sdk/sampling.hpp"
 
+#include "dust/sdk/ratio_of_means.hpp"
 #include "support/approx.hpp"
 #include "unit/sensor/coverage.hpp"
 
@@ -191,6 +192,35 @@ TEST_CASE("the error of a ratio shall leave out what both parts have in common")
   const double values[] = {1.0, 0.0};
   for (int i = 0; i < 64; ++i) unfed.add(values, 0.001);
   CHECK(unfed.ratio_error(0, 1) == sdk::k_no_estimate);
+}
+
+TEST_CASE("a mean that is not steady shall have no error per load, whatever hides its memory") {
+  // Dust that fades by 40 %, over a feed that comes in lumps: its noise is 30 times the drift.
+  int hidden = 0;
+  for (int run = 0; run < test::k_runs; ++run) {
+    Dice dice(run);
+    sdk::BatchMeans means(2);
+    for (int i = 0; i < 1024; ++i) {
+      const double fading = 1.2 - 0.4 * static_cast<double>(i) / 1024.0;
+      const double lumps = dice.normal() > 1.5 ? 15.0 : 0.0;
+      const double values[] = {fading, lumps};
+      means.add(values, 0.001);
+    }
+    REQUIRE(means.error(0) == sdk::k_not_steady);
+    hidden += means.ratio_error(0, 1) > 0.0;
+    CHECK(sdk::error_of_ratio(means, 0, 1) == sdk::k_not_steady);
+  }
+  CHECK(hidden > test::k_runs / 2);
+  // Where the mean has an error, that of the ratio is the one of the residuals.
+  sdk::BatchMeans steady(2);
+  Dice dice(1);
+  for (int i = 0; i < 1024; ++i) {
+    const double feed = 1.0 + 0.3 * dice.normal();
+    const double values[] = {2e-3 * feed + 2e-5 * dice.normal(), feed};
+    steady.add(values, 0.001);
+  }
+  REQUIRE(steady.error(0) > 0.0);
+  CHECK(sdk::error_of_ratio(steady, 0, 1) == steady.ratio_error(0, 1));
 }
 
 TEST_CASE("a feed shall count as even unless it begins, ends or changes while it is watched") {
