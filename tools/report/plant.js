@@ -48,7 +48,8 @@ Dust.hood_text = ({setting}, name) => {
 
 // The same in the steady stream, as rates: {free, causes, sides, hoods, carriers, out, drawn, settled, caught, airborne, observed}, each part {name, rate, load},
 // figures in kg/h and g/t with their errors; what carries dust out lying on it are `carriers`. Where a run tells no rates, or hardly anything comes off while they are
-// taken (`quiet`, in s), means over the whole of it, without errors, and `observed` is 0. Amounts per tonne that the rates do not tell are those of the whole run: `is_whole`.
+// taken (`quiet`, in s), means over the whole of it, without errors, and `observed` is 0. Amounts per tonne that the rates do not tell are those of the whole run: `is_whole`;
+// none where that run was of two plants (`is_mixed`).
 Dust.dust_stream = (data) => {
   const dust = Dust.load_dust(data), {summary} = data, figures = summary.dust_rates || {};
   if (!dust) return null;
@@ -56,12 +57,13 @@ Dust.dust_stream = (data) => {
   // Shares of next to nothing say nothing.
   const negligible = 1e-3, others = ['left', 'drawn_out', 'deposited', 'carried_out', 'caught'].reduce((sum, way) => sum + Math.abs(rate_of(way)), 0);
   const seconds = (figures.observed || {}).value || 0, is_quiet = !(rate_of(source) > negligible * others), observed = is_quiet ? 0 : seconds;
-  const emitted = (summary.mass_kg || {}).emitted, per_tonne = (kg) => ({value: dust.has_loads && emitted > 0 ? 1e6 * kg / emitted : NaN, uncertainty: null, is_whole: true});
+  const emitted = (summary.mass_kg || {}).emitted, is_mixed = (summary.start_from || {}).rates_since_s > 0;
+  const per_tonne = (kg) => ({value: dust.has_loads && emitted > 0 && !is_mixed ? 1e6 * kg / emitted : NaN, uncertainty: null, is_whole: true});
   if (!observed) {
     const hours = summary.simulated_s / 3600, figure = (value) => ({value, uncertainty: null});
     const part = ({name, kg}) => ({name, rate: figure(hours > 0 ? kg / hours : NaN), load: per_tonne(kg)});
     const whole = (kg) => part({name: 'all', kg});
-    return {observed, quiet: dust.free > 0 ? seconds : 0, free: whole(dust.free), causes: dust.causes.map(part), sides: dust.sides.map(part), hoods: dust.hoods.map(part), carriers: dust.carriers.map(part), out: whole(dust.out), drawn: whole(dust.drawn),
+    return {observed, is_mixed, quiet: dust.free > 0 ? seconds : 0, free: whole(dust.free), causes: dust.causes.map(part), sides: dust.sides.map(part), hoods: dust.hoods.map(part), carriers: dust.carriers.map(part), out: whole(dust.out), drawn: whole(dust.drawn),
       settled: whole(dust.settled), caught: whole(dust.caught), airborne: whole(dust.airborne)};
   }
   const zero = {value: 0, uncertainty: null}, unknown = {value: NaN, uncertainty: null};
@@ -89,6 +91,7 @@ Dust.dust_surety = (data, stream) => {
     p({}, stream.observed > 0 ? `Means over the last ${seconds(stream.observed)}, without the start-up; the error is the scatter of this run alone.`
       : stream.quiet > 0 ? `Hardly any dust comes in the last ${seconds(stream.quiet)}: means over the whole ${Dust.number(end, 3)}\u202fs.`
         : `Means over the whole ${Dust.number(end, 3)}\u202fs, with its start-up, in which less comes off.`),
+    stream.is_mixed && p({class: 'caution'}, 'They begin at 0\u202fs, with the run that this one started from: they are means over two plants.'),
     is_whole && p({class: 'caution'}, 'Nothing, or nothing even, is fed in that time: amounts per tonne are what has come off in the whole run over what has been released.'),
     stream.free.rate.value > 0 && p({}, Dust.cloud_text(stream.free.rate.value, stream.airborne.rate.value)),
     restless && restless.length > 0 && p({class: 'caution'}, `Not steady yet: what goes out at ${restless.map((part) => Dust.words(part.name)).join(', ')}.`),

@@ -86,11 +86,11 @@ void transfer_fluid(const Comparison& both, const Simulation::Owners& to, bool i
   if (has_grains) fluid.start(to.particles.rows());
 }
 
-bool transfer_dust(const Comparison& both, const Simulation::Owners& to, const Warn& warn) {
+void transfer_dust(const Comparison& both, const Simulation::Owners& to, const Warn& warn) {
   const io::StoredState& state = both.origin().state();
   if (!keeps_dust(both)) {
     to.dust->start();
-    return false;
+    return;
   }
   DustPlaces places(both.origin().scenario(), both.now());
   state.read({{"dust", [&](sdk::ArchiveReader& a) { places.find_dropped(a); }}});
@@ -108,7 +108,6 @@ bool transfer_dust(const Comparison& both, const Simulation::Owners& to, const W
                    part.second(changed);
                  }}});
   }
-  return true;
 }
 
 }  // namespace dust::run

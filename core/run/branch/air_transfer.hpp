@@ -20,7 +20,7 @@ void report_what_air_drops(const Comparison& both, bool is_same_world, const War
 /// where both are coupled as before.
 void transfer_fluid(const Comparison& both, const Simulation::Owners& to, bool is_same_world);
 
-/// The dust in the air and on surfaces; false where it begins as the scenario says.
-bool transfer_dust(const Comparison& both, const Simulation::Owners& to, const Warn& warn);
+/// The dust in the air and on surfaces.
+void transfer_dust(const Comparison& both, const Simulation::Owners& to, const Warn& warn);
 
 }  // namespace dust::run

@@ -5,8 +5,7 @@
 #include "base/text.hpp"
 #include "run/branch/air_transfer.hpp"
 #include "run/branch/past.hpp"
-#include "run/dust/hoods.hpp"
-#include "run/summary/summary_dust.hpp"
+#include "run/summary/plant_begin.hpp"
 #include "scenario/text/suggest.hpp"
 
 #include <algorithm>
@@ -135,7 +134,7 @@ void Branch::transfer(const Simulation::Owners& to) {
   transfer_insertion(to);
   const Warn warn_of = [this](const std::string& text) { warn(text); };
   if (to.fluid != nullptr) transfer_fluid(both_, to, is_same_world_);
-  if (to.dust != nullptr) is_field_new_ = !transfer_dust(both_, to, warn_of);
+  if (to.dust != nullptr) transfer_dust(both_, to, warn_of);
   if (to.liberation != nullptr) transfer_liberation(to);
   transfer_sensors(to.models);
   // Last, so that the places of the last sample are those saved, not those just published.
@@ -170,7 +169,9 @@ void Branch::note_counts(const Simulation& simulation) {
   const Past past = load_past(origin().state());
   const CountsBefore then = past.start ? past.start->before : CountsBefore{};
   note_changed_emitters(then, simulation.insertion());
-  note_beginnings(then, simulation);
+  const bool is_same_plant =
+      both_.is_same() || both_.is_same_plant(simulation.models().class_diameters);
+  before_.plant = is_same_plant ? then.plant : plant_begin_now(simulation);
 }
 
 void Branch::note_changed_emitters(const CountsBefore& then, const Insertion& insertion) {
@@ -186,21 +187,6 @@ void Branch::note_changed_emitters(const CountsBefore& then, const Insertion& in
   for (CountsBefore::ChangedEmitter& emitter : changed) {
     const auto n = static_cast<std::size_t>(base::number_of(now_.setup.emitters, emitter.name));
     emitter.mass = insertion.ledger().totals_of(n).mass + insertion.waiting_mass(n);
-  }
-}
-
-void Branch::note_beginnings(const CountsBefore& then, const Simulation& simulation) {
-  const CountedSince now = {origin().time(), simulation.dem().balance().mass_emitted,
-                            dust_so_far(simulation)};
-  before_.field = is_field_new_ ? now : then.field;
-  before_.loads = are_loads_new_ ? now : then.loads;
-  const auto there = openings_of(origin().scenario().setup, origin().scenario().dust);
-  for (const particles::Opening& hood : openings_of(now_.setup, now_.dust)) {
-    if (base::find_named(there, hood.name) == nullptr) {
-      before_.new_hoods.push_back({hood.name, now});
-    } else if (const auto* known = base::find_named(then.new_hoods, hood.name)) {
-      before_.new_hoods.push_back(*known);
-    }
   }
 }
 

@@ -61,9 +61,7 @@ class Branch {
   /// Those whose settings are not, or had not been, the same since the very beginning: what they
   /// had brought by now was not asked for by these.
   void note_changed_emitters(const CountsBefore& then, const Insertion& insertion);
-  /// Counts that begin here, and those that had begun in the other run or before it.
-  void note_beginnings(const CountsBefore& then, const Simulation& simulation);
-  /// Both, after all has been given.
+  /// Both that and since when the plant is as it is, after all has been given.
   void note_counts(const Simulation& simulation);
   void report_obstacles(const particles::TransferObstacles& obstacles);
   void error(const std::string& text) { diagnostics_.error(start().where, "start_from: " + text); }
@@ -94,8 +92,6 @@ class Branch {
   std::unique_ptr<particles::Dem> their_particles_;
   particles::TransferReport report_;
   std::vector<std::string> sensors_going_on_;
-  bool is_field_new_ = false;
-  bool are_loads_new_ = false;
   CountsBefore before_;
 };
 

@@ -246,8 +246,7 @@ void Branch::report_grains_anew() {
 
 /// What came off so far, by the names of its causes.
 void Branch::transfer_liberation(const Simulation::Owners& to) {
-  are_loads_new_ = !keeps_dust_on_grains();
-  if (are_loads_new_) return;
+  if (!keeps_dust_on_grains()) return;
   const std::vector<std::string> walls = their_particles().wall_names();
   origin().state().read({{"liberation", [&](sdk::ArchiveReader& a) {
                             to.liberation->transfer_from(a, walls, both_.is_same_grid());

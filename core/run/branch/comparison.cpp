@@ -95,9 +95,13 @@ bool Comparison::has_same_densities(const scenario::EmitterSpec& ours,
                     theirs.more_materials.begin(), theirs.more_materials.end(), is_same_density);
 }
 
+bool Comparison::is_same_plant(const std::vector<double>& class_diameters) const {
+  return is_same_but_sensors_ && class_diameters == origin_.class_diameters();
+}
+
 bool Comparison::keeps_statistics(const std::string& name,
                                   const std::vector<double>& class_diameters) const {
-  return is_same_but_sensors_ && class_diameters == origin_.class_diameters() &&
+  return is_same_plant(class_diameters) &&
          base::find_named(origin_.scenario().setup.sensors, name) != nullptr &&
          same("sensors." + name);
 }

@@ -44,8 +44,10 @@ class Comparison {
   /// Whether what an emitter remembers, be it a number of grains, stands for the same mass.
   [[nodiscard]] bool has_same_densities(const scenario::EmitterSpec& ours,
                                         const scenario::EmitterSpec& theirs) const;
-  /// Whether what a sensor has added up is of what it looks at now. Where anything else is set
-  /// otherwise it is of another plant, and means over both would be of neither.
+  /// Whether nothing differs but sensors, the end and what is written. Else it is another plant,
+  /// and means over both would be of neither.
+  [[nodiscard]] bool is_same_plant(const std::vector<double>& class_diameters) const;
+  /// Whether what a sensor has added up is of what it looks at now.
   [[nodiscard]] bool keeps_statistics(const std::string& name,
                                       const std::vector<double>& class_diameters) const;
 

@@ -11,7 +11,8 @@ namespace {
 
 constexpr const char* k_warnings = "warnings";
 constexpr const char* k_counts = "counts";
-constexpr const char* k_since = "counted_since";
+constexpr const char* k_plant = "plant";
+constexpr const char* k_work = "work_before";
 constexpr const char* k_changed = "changed_emitters";
 
 /// Texts one behind the other, a letter a number and a zero behind each.
@@ -55,29 +56,30 @@ StartFacts load_start(sdk::ArchiveReader& archive) {
   return start;
 }
 
-constexpr std::size_t k_since_numbers = 3;
-
-void add_since(const CountedSince& since, std::vector<double>& to) {
-  to.insert(to.end(), {since.time, since.mass, since.dust});
+void save_plant(const PlantBegin& plant, sdk::ArchiveWriter& archive) {
+  std::vector<double> numbers{plant.time, plant.mass, plant.dust};
+  std::vector<std::string> names;
+  for (const PlantBegin::Counted& counted : plant.counted) {
+    names.push_back(counted.name);
+    numbers.push_back(counted.mass);
+  }
+  archive.numbers(k_plant, numbers);
+  archive.integers("plant_counted", letters_of(names));
 }
-CountedSince since_of(const std::vector<double>& numbers, std::size_t n) {
-  const std::size_t at = k_since_numbers * n;
-  return {numbers.at(at), numbers.at(at + 1), numbers.at(at + 2)};
+
+PlantBegin load_plant(sdk::ArchiveReader& archive) {
+  const auto numbers = archive.numbers(k_plant);
+  PlantBegin plant{numbers.at(0), numbers.at(1), numbers.at(2), {}};
+  for (std::string& name : texts_of(archive.integers("plant_counted"))) {
+    plant.counted.push_back({std::move(name), numbers.at(3 + plant.counted.size())});
+  }
+  return plant;
 }
 
 CountsBefore load_before(sdk::ArchiveReader& archive) {
-  const auto since = archive.numbers(k_since);
-  const auto work = archive.integers("work_before");
-  CountsBefore before = {.new_hoods = {},
-                         .new_emitters = texts_of(archive.integers("new_emitters")),
-                         .changed_emitters = {},
-                         .field = since_of(since, 0),
-                         .loads = since_of(since, 1),
-                         .work = {work.at(0), work.at(1), work.at(2), work.at(3), work.at(4)}};
-  for (std::string& name : texts_of(archive.integers("new_hoods"))) {
-    before.new_hoods.push_back({std::move(name), since_of(since, 2 + before.new_hoods.size())});
-  }
-  return before;
+  const auto work = archive.integers(k_work);
+  return {.new_emitters = texts_of(archive.integers("new_emitters")),
+          .work = {work.at(0), work.at(1), work.at(2), work.at(3), work.at(4)}};
 }
 
 std::vector<CountsBefore::ChangedEmitter> load_changed(sdk::ArchiveReader& archive) {
@@ -105,18 +107,8 @@ void save_past(const Past& past, sdk::ArchiveWriter& archive) {
   const CountsBefore::Work& work = before.work;
   const std::int64_t work_before[] = {work.particle_steps, work.fine_steps, work.steps,
                                       work.fluid_sub_steps, work.dust_sub_steps};
-  archive.integers("work_before", work_before);
-  // Of dust in the air, of dust on grains, of each new hood.
-  std::vector<double> since;
-  add_since(before.field, since);
-  add_since(before.loads, since);
-  std::vector<std::string> hoods;
-  for (const CountsBefore::NewHood& hood : before.new_hoods) {
-    hoods.push_back(hood.name);
-    add_since(hood.since, since);
-  }
-  archive.numbers(k_since, since);
-  archive.integers("new_hoods", letters_of(hoods));
+  archive.integers(k_work, work_before);
+  save_plant(before.plant, archive);
   archive.integers("new_emitters", letters_of(before.new_emitters));
   std::vector<std::string> changed;
   std::vector<double> masses;
@@ -134,7 +126,9 @@ Past load_past(const io::StoredState& state) {
   state.read({{k_past_part, [&](sdk::ArchiveReader& a) {
                  past.warnings = texts_of(a.integers(k_warnings));
                  if (state.has(k_past_part, k_counts)) past.start = load_start(a);
-                 if (state.has(k_past_part, k_since)) past.start->before = load_before(a);
+                 if (state.has(k_past_part, k_work)) past.start->before = load_before(a);
+                 // Older checkpoints do not hold it.
+                 if (state.has(k_past_part, k_plant)) past.start->before.plant = load_plant(a);
                  if (state.has(k_past_part, k_changed)) {
                    past.start->before.changed_emitters = load_changed(a);
                  }

@@ -3,7 +3,7 @@
 
 #include "report/facts/dust_fractions.hpp"
 #include "run/dust/hoods.hpp"
-#include "run/summary/summary_dust.hpp"
+#include "run/summary/plant_begin.hpp"
 
 #include <functional>
 
@@ -12,35 +12,46 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// `mass_of`(balance) is what of a class went this way [kg].
-Json sampled(const Simulation& s, const CountedSince& since,
-             const std::function<double(const airborne::DustBalance&)>& mass_of) {
-  constexpr double k_milligrams = 1e6;  // per kg, as grams per tonne
-  constexpr double k_hour = 3600.0;     // s
-  const airborne::DustField& field = s.dust_stage()->field();
+/// [kg] What a sampler would find of an amount of dust.
+struct Sample {
   double whole = 0.0;
-  report::DustFractions parts;
-  for (std::size_t n = 0; n < field.classes(); ++n) {
-    const double mass = mass_of(field.balance(n));
-    const report::DustFractions shares = report::dust_fractions(
-        report::aerodynamic_diameter(field.dust_class(n).diameter, s.dust_setup().field->density));
+  report::DustFractions parts = {};
+
+  void add(double mass, const report::DustFractions& shares) {
     whole += mass;
     parts.inhalable += mass * shares.inhalable;
     parts.thoracic += mass * shares.thoracic;
     parts.respirable += mass * shares.respirable;
   }
-  const double time = s.time() - since.time;
-  Json j = {{"kg", whole},
-            {"kg_per_h", time > 0.0 ? k_hour * whole / time : 0.0},
-            {"inhalable_kg", parts.inhalable},
-            {"thoracic_kg", parts.thoracic},
-            {"respirable_kg", parts.respirable}};
-  const double material = s.dem().balance().mass_emitted - since.mass;
+};
+
+/// `mass_of`(balance) is what of a class went this way [kg], counted under `way` and `name`.
+Json sampled(const Simulation& s, const PlantBegin& begin, const char* way, const std::string& name,
+             const std::function<double(const airborne::DustBalance&)>& mass_of) {
+  constexpr double k_milligrams = 1e6;  // per kg, as grams per tonne
+  constexpr double k_hour = 3600.0;     // s
+  const airborne::DustField& field = s.dust_stage()->field();
+  Sample all, since;
+  for (std::size_t n = 0; n < field.classes(); ++n) {
+    const double mass = mass_of(field.balance(n));
+    const report::DustFractions shares = report::dust_fractions(
+        report::aerodynamic_diameter(field.dust_class(n).diameter, s.dust_setup().field->density));
+    const std::string& of_class = s.dust_stage()->class_names()[n];
+    all.add(mass, shares);
+    since.add(mass - counted_before(begin, counted_as(way, name, of_class)), shares);
+  }
+  const double time = s.time() - begin.time;
+  Json j = {{"kg", all.whole},
+            {"kg_per_h", time > 0.0 ? k_hour * since.whole / time : 0.0},
+            {"inhalable_kg", all.parts.inhalable},
+            {"thoracic_kg", all.parts.thoracic},
+            {"respirable_kg", all.parts.respirable}};
+  const double material = s.dem().balance().mass_emitted - begin.mass;
   if (material > 0.0) {
-    j["g_per_tonne"] = k_milligrams * whole / material;
-    j["inhalable_mg_per_kg"] = k_milligrams * parts.inhalable / material;
-    j["thoracic_mg_per_kg"] = k_milligrams * parts.thoracic / material;
-    j["respirable_mg_per_kg"] = k_milligrams * parts.respirable / material;
+    j["g_per_tonne"] = k_milligrams * since.whole / material;
+    j["inhalable_mg_per_kg"] = k_milligrams * since.parts.inhalable / material;
+    j["thoracic_mg_per_kg"] = k_milligrams * since.parts.thoracic / material;
+    j["respirable_mg_per_kg"] = k_milligrams * since.parts.respirable / material;
   }
   return j;
 }
@@ -48,20 +59,20 @@ Json sampled(const Simulation& s, const CountedSince& since,
 }  // namespace
 
 Json dust_outflow_json(const Simulation& s, const RunFacts& facts) {
-  const CountedSince field = facts.start ? facts.start->before.field : CountedSince{};
+  const PlantBegin begin = plant_begin(facts);
   const std::vector<particles::Opening>& openings = s.dust_stage()->openings();
   Json j = Json::object();
   for (std::size_t o = 0; o < openings.size(); ++o) {
-    const CountedSince hood = hood_since(facts, openings[o].name);
     j[openings[o].name] =
-        sampled(s, hood.time > field.time ? hood : field,
+        sampled(s, begin, k_by_outlet, openings[o].name,
                 [&](const airborne::DustBalance& balance) { return balance.outlets[o]; });
   }
   for (std::size_t side = 0; side < 6; ++side) {
     if (!s.dust_stage()->lets_dust_out(side)) continue;
     const std::string name = scenario::k_side_names[side];
     j[j.contains(name) ? name + k_beside_hood : name] =
-        sampled(s, field, [&](const airborne::DustBalance& balance) { return balance.left[side]; });
+        sampled(s, begin, k_by_side, name,
+                [&](const airborne::DustBalance& balance) { return balance.left[side]; });
   }
   return j;
 }

@@ -223,6 +223,7 @@ Json run_json(const Simulation& s, const RunFacts& facts) {
                        {"contacts", facts.start->contacts},
                        {"contacts_without_past", facts.start->without_past},
                        {"is_same_scenario", facts.start->is_same},
+                       {"rates_since_s", facts.start->before.plant.time},
                        {"particle_steps", facts.start->before.work.particle_steps},
                        {"fluid_steps", facts.start->before.work.steps}};
   }

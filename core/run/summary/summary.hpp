@@ -17,31 +17,30 @@
 
 namespace dust::run {
 
-/// When something began that is counted from there on, and what was counted by then; nothing of
-/// what goes on since the very beginning.
-struct CountedSince {
+/// When a plant began to be as it is, and what was counted by then. Masses go on, for they have to
+/// balance; rates, amounts per load and shares count from there on, so that they are of one plant.
+struct PlantBegin {
+  struct Counted {
+    std::string name;
+    double mass = 0.0;  ///< [kg]
+  };
   double time = 0.0;  ///< [s]
   double mass = 0.0;  ///< [kg] emitted
   double dust = 0.0;  ///< [kg] of dust, emitted as grains and released into the air
+  std::vector<Counted> counted = {};
 };
 
-/// Which counts of a run that started from another have begun with it, or with one that it comes
-/// from by way of others: the time, the load and the dust of before do not count for them.
+/// What was there when a run that started from another began, or one that it comes from by way of
+/// others.
 struct CountsBefore {
-  struct NewHood {
-    std::string name;
-    CountedSince since;
-  };
-  std::vector<NewHood> new_hoods;
-  std::vector<std::string> new_emitters;
+  PlantBegin plant = {};
+  std::vector<std::string> new_emitters = {};
   /// One that had brought something by other settings.
   struct ChangedEmitter {
     std::string name;
     double mass = 0.0;  ///< [kg] by then, with what waited for its place
   };
-  std::vector<ChangedEmitter> changed_emitters;
-  CountedSince field;  ///< dust in the air
-  CountedSince loads;  ///< dust on grains
+  std::vector<ChangedEmitter> changed_emitters = {};
   /// Work that another run has done and that counters hold which go on.
   struct Work {
     std::int64_t particle_steps = 0, fine_steps = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary/summary_dust.hpp"
 
-#include "base/named.hpp"
 #include "particles/store/balance_ledger.hpp"
+#include "run/summary/plant_begin.hpp"
 #include "run/summary/practice_rules.hpp"
 #include "setup/dust_rule.hpp"
 
@@ -69,11 +69,6 @@ Json induced_air_json(const Simulation& s) {
           {"air_m3_per_s", air},   {"air_m3_per_tonne", k_tonne * air / load}};
 }
 
-/// Since when what comes off grains is counted.
-CountedSince loads_since(const RunFacts& facts) {
-  return facts.start ? facts.start->before.loads : CountedSince{};
-}
-
 }  // namespace
 
 Json dust_rule_json(const Simulation& s) {
@@ -137,17 +132,12 @@ double dust_so_far(const Simulation& s) {
   return dust;
 }
 
-CountedSince hood_since(const RunFacts& facts, const std::string& name) {
-  if (!facts.start) return {};
-  const auto* hood = base::find_named(facts.start->before.new_hoods, name);
-  return hood != nullptr ? hood->since : CountedSince{};
-}
-
 Json hoods_json(const Simulation& s, const RunFacts& facts) {
   constexpr double k_grams_per_tonne = 1e6;
   constexpr double k_hour = 3600.0;  // s
-  const double load = s.dem().balance().mass_emitted;
-  const double dust = dust_so_far(s);
+  const PlantBegin begin = plant_begin(facts);
+  const double load = s.dem().balance().mass_emitted - begin.mass;
+  const double dust = dust_so_far(s) - begin.dust;
   const auto over = [](double amount, double whole) {
     return whole > 0.0 ? Json(amount / whole) : Json(nullptr);
   };
@@ -155,13 +145,13 @@ Json hoods_json(const Simulation& s, const RunFacts& facts) {
   for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
     const Drawn drawn = drawn_by(s, o);
     const std::string& name = s.dem().openings()[o].name;
-    const CountedSince since = hood_since(facts, name);
+    const double since = drawn.dust - counted_before(begin, counted_as(k_by_hood, name));
     j[name] = {{"particles", static_cast<std::int64_t>(drawn.particles)},
                {"mass_kg", drawn.mass},
                {"dust_kg", drawn.dust},
-               {"dust_g_per_tonne", over(k_grams_per_tonne * drawn.dust, load - since.mass)},
-               {"dust_kg_per_h", over(k_hour * drawn.dust, s.time() - since.time)},
-               {"share_of_dust", over(drawn.dust, dust - since.dust)}};
+               {"dust_g_per_tonne", over(k_grams_per_tonne * since, load)},
+               {"dust_kg_per_h", over(k_hour * since, s.time() - begin.time)},
+               {"share_of_dust", over(since, dust)}};
     if (s.dust_stage() != nullptr) j[name]["field_dust_kg"] = drawn.field_dust;
   }
   return j;
@@ -217,9 +207,9 @@ Json dust_on_grains_json(const Simulation& s, const RunFacts& facts) {
   constexpr double k_hour = 3600.0;  // s
   const LiberationStage& stage = *s.liberation();
   const std::vector<std::string>& classes = s.dust_stage()->class_names();
-  const CountedSince since = loads_since(facts);
-  const double load = s.dem().balance().mass_emitted - since.mass;
-  const double time = s.time() - since.time;
+  const PlantBegin begin = plant_begin(facts);
+  const double load = s.dem().balance().mass_emitted - begin.mass;
+  const double time = s.time() - begin.time;
   Json j = Json::object();
   for (std::size_t n = 0; n < classes.size(); ++n) {
     const particles::DustLoads::Balance balance = s.dem().dust_balance(n);
@@ -227,9 +217,11 @@ Json dust_on_grains_json(const Simulation& s, const RunFacts& facts) {
     for (std::size_t c = 0; c < stage.causes().size(); ++c) {
       const double mass = stage.set_free(c, n);
       if (!(mass > 0.0)) continue;
-      causes[stage.causes()[c]] = {{"kg", mass},
-                                   {"kg_per_h", k_hour * mass / time},
-                                   {"g_per_tonne", k_grams_per_tonne * mass / load}};
+      const std::string& cause = stage.causes()[c];
+      const double since = mass - counted_before(begin, counted_as(k_by_cause, cause, classes[n]));
+      causes[cause] = {{"kg", mass},
+                       {"kg_per_h", k_hour * since / time},
+                       {"g_per_tonne", k_grams_per_tonne * since / load}};
     }
     j[classes[n]] = {
         {"entered_kg", balance.entered},       {"on_grains_kg", balance.on_grains},
@@ -267,7 +259,8 @@ void add_liberation_table(const Simulation& s, const RunFacts& facts, Json& tabl
   constexpr double k_grams_per_tonne = 1e6;
   const LiberationStage& stage = *s.liberation();
   const std::vector<std::string>& classes = s.dust_stage()->class_names();
-  const double load = s.dem().balance().mass_emitted - loads_since(facts).mass;
+  const PlantBegin begin = plant_begin(facts);
+  const double load = s.dem().balance().mass_emitted - begin.mass;
   std::vector<std::string> columns{"set free by"};
   for (const std::string& name : classes) columns.push_back(name + " [g per tonne]");
   Json rows = Json::array();
@@ -275,8 +268,10 @@ void add_liberation_table(const Simulation& s, const RunFacts& facts, Json& tabl
     Json cells = Json::array({stage.causes()[c]});
     double whole = 0.0;
     for (std::size_t n = 0; n < classes.size(); ++n) {
+      const double before =
+          counted_before(begin, counted_as(k_by_cause, stage.causes()[c], classes[n]));
       whole += stage.set_free(c, n);
-      cells.push_back(k_grams_per_tonne * stage.set_free(c, n) / load);
+      cells.push_back(k_grams_per_tonne * (stage.set_free(c, n) - before) / load);
     }
     if (whole > 0.0) rows.push_back(cells);
   }

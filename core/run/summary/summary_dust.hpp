@@ -25,13 +25,10 @@ Drawn drawn_by(const Simulation& s, std::size_t opening);
 /// [kg] Of dust, emitted as grains and released into the air.
 double dust_so_far(const Simulation& s);
 
-/// Whether what a hood draws counts from a branch's own start on.
-[[nodiscard]] CountedSince hood_since(const RunFacts& facts, const std::string& name);
-
 /// By hood: {"particles", "mass_kg" of them, "dust_kg" as grains and of a field, "dust_g_per_tonne"
-/// of all grains released, "dust_kg_per_h" over the whole run, "share_of_dust" released, with a
-/// field "field_dust_kg"}; the rates and the share null where nothing was. What began in a branch
-/// counts from there.
+/// of all grains released, "dust_kg_per_h", "share_of_dust" released, with a field
+/// "field_dust_kg"}; the rates and the share null where nothing was. Amounts in kg count since
+/// t = 0, rates and share since the plant is as it is (PlantBegin).
 nlohmann::ordered_json hoods_json(const Simulation& s, const RunFacts& facts);
 
 /// What became of the airborne dust: by class {"released_kg", "airborne_kg", "deposited_kg" by
@@ -43,7 +40,7 @@ nlohmann::ordered_json dust_field_json(const Simulation& s);
 /// What grains carry, what of it came off and by what, for a run with loads: by class
 /// {"entered_kg", "on_grains_kg", "set_free_kg", "set_free_by" cause {"kg", "kg_per_h",
 /// "g_per_tonne"}, "left_with_grains_kg", "drawn_out_with_grains_kg", "balance_error", with
-/// scavenging "caught_kg"}, and "kept_back_kg".
+/// scavenging "caught_kg"}, and "kept_back_kg". Rates as in hoods_json.
 nlohmann::ordered_json dust_on_grains_json(const Simulation& s, const RunFacts& facts);
 
 /// What practice expects, orders of magnitude beside ours: by "ap42_drop" and material
