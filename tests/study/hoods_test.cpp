@@ -50,6 +50,7 @@ TEST_CASE("a run shall give a study of hoods, and the study what each hood captu
   INFO(written.err);
   REQUIRE(written.status == 0);
   CHECK(holds(written.out, "3 points of 0.24 s"));
+  CHECK(holds(written.out, "mg/m3 of dust round the place"));
   const std::string text = read_file(file);
   INFO(text);
   CHECK(holds(text, "start_from: wake"));

@@ -75,11 +75,18 @@ void read_dust_field(const report::H5Source& source, const report::RunText& run,
       report::object_at(report::object_at(run.summary, "dust_field"), "classes");
   if (frames.empty()) return;
   const double volume = grid.spacing[0] * grid.spacing[1] * grid.spacing[2];
+  const std::size_t first = frames.size() / 2;
   for (const auto& item : classes.items()) {
-    const auto amounts = source.floats("/fluid/" + frames.back() + "/dust_" + item.key());
-    if (amounts.size() != cells_of(grid)) continue;
+    // In the mean: clouds come and go.
+    std::vector<double> amounts(cells_of(grid), 0.0);
+    for (std::size_t f = first; f < frames.size(); ++f) {
+      const auto of_frame = source.floats("/fluid/" + frames[f] + "/dust_" + item.key());
+      for (std::size_t c = 0; c < std::min(amounts.size(), of_frame.size()); ++c) {
+        amounts[c] += static_cast<double>(of_frame[c]) / static_cast<double>(frames.size() - first);
+      }
+    }
     for (std::size_t c = 0; c < amounts.size(); ++c) {
-      if (!(amounts[c] > 0.0F)) continue;
+      if (!(amounts[c] > 0.0)) continue;
       const std::array<std::size_t, 3> cell{c % grid.count[0], c / grid.count[0] % grid.count[1],
                                             c / (grid.count[0] * grid.count[1])};
       sdk::Vec3 centre;
@@ -87,7 +94,7 @@ void read_dust_field(const report::H5Source& source, const report::RunText& run,
         const auto n = static_cast<std::size_t>(d);
         centre[d] = grid.origin[n] + (static_cast<double>(cell[n]) + 0.5) * grid.spacing[n];
       }
-      dust.push_back({centre, static_cast<double>(amounts[c]) * volume});
+      dust.push_back({centre, amounts[c] * volume});
     }
   }
 }

@@ -14,9 +14,10 @@ namespace dust::study {
 
 /// A place of low mean pressure that a sensor of a run has found.
 struct LowPressurePlace {
-  int number = 0;      ///< from 1 on, the deepest first
-  sdk::Vec3 position;  ///< [m]
-  double depth = 0.0;  ///< [Pa] below zero
+  int number = 0;          ///< from 1 on, the deepest first
+  sdk::Vec3 position;      ///< [m]
+  double depth = 0.0;      ///< [Pa] below zero
+  double dust_near = 0.0;  ///< [kg/m3] of dust, in the mean round it; of ranked_places
 };
 
 /// The places that a run's sensors of low pressure report, by the role of their figures; the
@@ -41,7 +42,7 @@ struct CoarseGrain {
 };
 
 /// Where a hood can stand in a finished run: bodies and the stream as cells of the fluid's grid,
-/// dust as it lies at the end.
+/// grains as they lie at the end, a dust field in the mean of the later frames.
 class HoodScene {
  public:
   /// Cells with more solids in the mean of the later frames belong to the stream.
@@ -64,7 +65,7 @@ class HoodScene {
   /// Whether neither a body nor the stream reaches into the box, nor a coarse grain that lies there
   /// at the end. What reaches beyond the domain does not count.
   [[nodiscard]] bool is_clear(sdk::Vec3 low, sdk::Vec3 high) const;
-  /// [kg] of dust in the box at the end.
+  /// [kg] of dust in the box.
   [[nodiscard]] double dust_in(sdk::Vec3 low, sdk::Vec3 high) const;
   /// [m] middle of the cells that bodies and the stream take; that of the domain where there are
   /// none.

@@ -164,6 +164,7 @@ std::optional<HoodSite> nearest_site(const LowPressurePlace& place, double openi
   if (!best) return std::nullopt;
   HoodSite site = sites.site_of(*best);
   site.place = place.number;
+  site.dust_near = place.dust_near;
   site.moved = distance;
   return site;
 }

@@ -12,13 +12,14 @@ namespace dust::study {
 
 /// A hood that fits at a place: a duct of rectangular section whose end is the opening.
 struct HoodSite {
-  int place = 0;          ///< number of the place of low pressure
-  sdk::Vec3 body_min;     ///< [m] the duct
-  sdk::Vec3 body_max;     ///< [m]
-  sdk::Vec3 opening_min;  ///< [m] its open end, flat
-  sdk::Vec3 opening_max;  ///< [m]
-  int axis = 0;           ///< 0, 1, 2: along which it draws
-  double moved = 0.0;     ///< [m] from the place to the middle of the opening
+  int place = 0;           ///< number of the place of low pressure
+  sdk::Vec3 body_min;      ///< [m] the duct
+  sdk::Vec3 body_max;      ///< [m]
+  sdk::Vec3 opening_min;   ///< [m] its open end, flat
+  sdk::Vec3 opening_max;   ///< [m]
+  int axis = 0;            ///< 0, 1, 2: along which it draws
+  double moved = 0.0;      ///< [m] from the place to the middle of the opening
+  double dust_near = 0.0;  ///< [kg/m3] of dust round the place
 
   /// [m2] of the opening.
   [[nodiscard]] double area() const;
@@ -37,20 +38,20 @@ struct HoodSite {
 [[nodiscard]] std::optional<HoodSite> site_at(const LowPressurePlace& place, double opening,
                                               const HoodScene& scene);
 
-/// A place whose hood would stand where that of a deeper one does.
+/// A place whose hood would stand where that of one before it does.
 struct SharedSite {
   int place = 0;  ///< its number
-  int with = 0;   ///< that of the deeper one
+  int with = 0;   ///< that of the one before
 };
 
-/// The sites of the deepest places that have room each for themselves.
+/// The sites of the first places that have room each for themselves.
 struct HoodSites {
   std::vector<HoodSite> sites;
   std::vector<int> without_room;   ///< numbers of places where no hood fits
   std::vector<SharedSite> shared;  ///< places left out because their site is taken
 };
 
-/// Sites for up to `count` of the places, which come deepest first. A site is taken where its duct
+/// Sites for up to `count` of the places, in their order. A site is taken where its duct
 /// shares more than half of itself with one before.
 [[nodiscard]] HoodSites sites_at(std::span<const LowPressurePlace> places, std::size_t count,
                                  double opening, const HoodScene& scene);

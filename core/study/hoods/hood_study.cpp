@@ -285,6 +285,18 @@ void write_measures(std::ostringstream& out, const FinishedRun& run) {
   }
 }
 
+/// What is worth a hood has to be left of the places.
+RankedPlaces places_worth(const FinishedRun& run, double opening, const HoodScene& scene) {
+  const auto hoods = existing_hoods(run.scenario.setup, run.scenario.dust);
+  RankedPlaces ranked = ranked_places(run.places, hoods, opening, scene);
+  if (!ranked.places.empty()) return ranked;
+  refuse((run.folder / "summary.json").string() + ":1",
+         "all of its " + std::to_string(run.places.size()) +
+             " places of low pressure lie where a hood draws already (" +
+             ranked.reached.front().hood +
+             "): give low_pressure a box beyond its reach, or a larger count, and run again");
+}
+
 }  // namespace
 
 std::vector<HoodFlow> flows_of(const std::string& text) {
@@ -348,13 +360,15 @@ HoodStudy hood_study(const fs::path& folder, const HoodStudyOptions& options,
   scene.set_periodic_clearance(periodic_clearance(run));
   HoodStudy study;
   study.opening = options.opening > 0.0 ? options.opening : usual_opening(scene);
-  HoodSites found = sites_at(run.places, options.places, study.opening, scene);
+  RankedPlaces ranked = places_worth(run, study.opening, scene);
+  study.reached = std::move(ranked.reached);
+  HoodSites found = sites_at(ranked.places, options.places, study.opening, scene);
   study.sites = std::move(found.sites);
   study.without_room = std::move(found.without_room);
   study.shared = std::move(found.shared);
   if (study.sites.empty()) {
     refuse((folder / "summary.json").string() + ":1",
-           "at none of its " + std::to_string(run.places.size()) +
+           "at none of its " + std::to_string(ranked.places.size()) +
                " places of low pressure there is room for a hood of " + mm(study.opening) +
                " mm clear of bodies and the stream: give a smaller --opening");
   }

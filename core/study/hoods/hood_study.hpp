@@ -3,6 +3,7 @@
 
 #include "registry/registry.hpp"
 #include "study/hoods/hood_site.hpp"
+#include "study/hoods/ranked_places.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -34,7 +35,7 @@ struct HoodFlow {
 /// What a study of hoods is to hold.
 struct HoodStudyOptions {
   std::vector<HoodFlow> flows;  ///< empty: usual_flows
-  std::size_t places = 3;       ///< of the deepest
+  std::size_t places = 3;       ///< of those with most dust near them (ranked_places)
   double opening = 0.0;         ///< [m] 0: usual_opening
   double duration = 0.0;        ///< [s] of each point; 0: half of what the run took
   std::size_t replicates = 1;   ///< of each point, with other seeds
@@ -46,18 +47,20 @@ struct HoodStudy {
   std::string text;
   std::vector<HoodSite> sites;
   std::vector<HoodFlow> flows;
-  std::vector<int> without_room;   ///< numbers of places where no hood fits
-  std::vector<SharedSite> shared;  ///< places whose site a deeper one has taken
-  double opening = 0.0;            ///< [m]
-  double duration = 0.0;           ///< [s] of each point
-  std::size_t replicates = 1;      ///< of each point
+  std::vector<int> without_room;      ///< numbers of places where no hood fits
+  std::vector<SharedSite> shared;     ///< places whose site one before has taken
+  std::vector<ReachedPlace> reached;  ///< places where a hood draws already
+  double opening = 0.0;               ///< [m]
+  double duration = 0.0;              ///< [s] of each point
+  std::size_t replicates = 1;         ///< of each point
   [[nodiscard]] std::size_t points() const {
     return replicates * (1 + sites.size() * flows.size());
   }
 };
 
 /// Writes a study of hoods for a finished run: each point goes on from the run's last state with a
-/// hood at a place of low pressure, one of them without. Throws base::UserError with the place and
+/// hood at a place of low pressure, one of them without; at the places with most dust near them
+/// that no hood reaches already. Throws base::UserError with the place and
 /// a remedy where the run has no dust, no places, no checkpoint or is not finished.
 [[nodiscard]] HoodStudy hood_study(const std::filesystem::path& run,
                                    const HoodStudyOptions& options,

@@ -3,6 +3,7 @@
 #include "study/hoods/hood_results.hpp"
 #include "study/hoods/hood_site.hpp"
 #include "study/hoods/hood_study.hpp"
+#include "study/hoods/ranked_places.hpp"
 #include "support/approx.hpp"
 #include "support/engine.hpp"
 
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -181,6 +183,44 @@ TEST_CASE("two places that are moved to one site shall have one hood, and the ot
   // As many as are asked for, those left out not counted.
   CHECK(study::sites_at(places, 1, 0.02, scene).sites.size() == 1);
   CHECK(study::sites_at(places, 2, 0.02, scene).sites.back().place == 3);
+}
+
+TEST_CASE(
+    "places shall be ranked by the dust round them, and left out where a hood draws already") {
+  const std::vector<char> taken(40 * 2 * 20, 0);
+  // The deepest lies at the intake, the next in clean air, the shallowest in the cloud.
+  const std::vector<study::LowPressurePlace> places = {
+      {1, {0.19, 5e-3, 0.05}, 5.0}, {2, {0.05, 5e-3, 0.05}, 0.4}, {3, {0.1, 5e-3, 0.05}, 0.1}};
+  // A cloud of 4 ug within an opening of the third place, a wisp beside the second.
+  const study::HoodScene scene(k_grid, taken,
+                               {{{0.11, 5e-3, 0.06}, 4e-9}, {{0.045, 5e-3, 0.04}, 1e-12}}, {});
+  const std::vector<study::ExistingHood> hoods = {{"right", {0.2, 0.0, 0.03}, {0.2, 0.01, 0.07}}};
+  const auto ranked = study::ranked_places(places, hoods, 0.02, scene);
+  REQUIRE(ranked.places.size() == 2);
+  CHECK(ranked.places[0].number == 3);
+  CHECK(ranked.places[1].number == 2);
+  // A box of 40 x 10 x 40 mm.
+  CHECK(ranked.places[0].dust_near == test::approx(4e-9 / 16e-6));
+  REQUIRE(ranked.reached.size() == 1);
+  CHECK(ranked.reached[0].place == 1);
+  CHECK(ranked.reached[0].hood == "right");
+  CHECK(study::sites_at(ranked.places, 1, 0.02, scene).sites.front().place == 3);
+  // Without dust and hoods the deepest comes first.
+  const study::HoodScene clean(k_grid, taken, {}, {});
+  CHECK(study::ranked_places(places, {}, 0.02, clean).places.front().number == 1);
+}
+
+TEST_CASE("a hood shall reach as far as its opening is wide, whatever its frame") {
+  // 100 x 400 mm, flat: the root of its area is 200 mm.
+  study::ExistingHood hood{"hood", {0.0, 0.0, 1.0}, {0.1, 0.4, 1.0}};
+  CHECK(study::is_within_reach({0.05, 0.2, 1.19}, hood));
+  CHECK_FALSE(study::is_within_reach({0.05, 0.2, 1.21}, hood));
+  CHECK(study::is_within_reach({0.05, 0.55, 1.0}, hood));
+  CHECK_FALSE(study::is_within_reach({0.25, 0.55, 1.0}, hood));
+  // Turned by a right angle about y: z becomes x.
+  hood.frame = scenario::FrameSpec{"turned", {}, {0, 1, 0}, 0.5 * std::numbers::pi};
+  CHECK(study::is_within_reach({1.19, 0.2, -0.05}, hood));
+  CHECK_FALSE(study::is_within_reach({0.05, 0.2, 1.19}, hood));
 }
 
 TEST_CASE("all flows of a table shall have one unit, that of the largest") {

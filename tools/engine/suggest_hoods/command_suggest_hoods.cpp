@@ -57,11 +57,18 @@ void print_sites(const study::HoodStudy& study) {
     if (site.moved > 0.0) {
       std::cout << ", " << mm(site.moved) << " mm beside the place, where the hood has room";
     }
+    constexpr double k_milligrams = 1e6;  // per kg
+    std::cout << "; " << base::digits_text(k_milligrams * site.dust_near, 2)
+              << " mg/m3 of dust round the place";
     std::cout << '\n';
   }
   for (const study::SharedSite& site : study.shared) {
     std::cout << "place " << site.place << ": left out, its hood would stand where that of place "
               << site.with << " does\n";
+  }
+  for (const study::ReachedPlace& reached : study.reached) {
+    std::cout << "place " << reached.place << ": left out, " << reached.hood
+              << " draws there already\n";
   }
   for (const int place : study.without_room) {
     std::cout << "place " << place << ": no room for an opening of "
@@ -109,8 +116,10 @@ void add_study_options(CLI::App& command, Arguments& arguments) {
                   "m/s through the opening)")
       ->type_name("FLOWS");
   command
-      .add_option("--places", arguments.places,
-                  "How many places of low pressure are tried, from the deepest on")
+      .add_option(
+          "--places", arguments.places,
+          "How many places of low pressure are tried: those with most dust within an opening of "
+          "them, beyond the reach of hoods that draw already")
       ->type_name("N")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
