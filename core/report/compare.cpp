@@ -71,6 +71,38 @@ std::string unit_of_key(const std::string& name) {
   return found->second;
 }
 
+constexpr const char* k_since_zero = " since t = 0";
+
+/// What both runs are compared by.
+class Ways {
+ public:
+  Ways(const RunText& first, const RunText& second, bool is_per_load) : is_per_load_(is_per_load) {
+    for (const RunText* run : {&first, &second}) {
+      const json& start = object_at(run->summary, "start_from");
+      const auto since = number_at(start, "rates_since_s");
+      // Of older branches the rates go on, too.
+      const bool is_older =
+          !since && start.contains("is_same_scenario") && start["is_same_scenario"] == false;
+      if (is_older) since_of_rates_ = k_since_zero;
+      if (is_older || since.value_or(0.0) > 0.0) since_of_sums_ = k_since_zero;
+    }
+  }
+  [[nodiscard]] bool is_per_load() const { return is_per_load_; }
+  /// Behind what goes on through a branch, for it has to balance: with one of the runs it is of two
+  /// plants.
+  [[nodiscard]] const std::string& since_of_sums() const { return since_of_sums_; }
+  /// Of a figure of a block of the summary.
+  [[nodiscard]] std::string since_of(const Figure& figure) const {
+    if (figure.sensor == "dust_rates" || figure.unit == "1") return "";
+    if (figure.name.ends_with("/on_grains_kg")) return "";  // as it is at the end
+    return figure.unit == "kg" ? since_of_sums_ : since_of_rates_;
+  }
+
+ private:
+  bool is_per_load_;
+  std::string since_of_sums_, since_of_rates_;
+};
+
 /// What a summary says of dust that is a concentration, under the names of its blocks.
 std::vector<Figure> field_dust_of(const RunText& run) {
   json blocks = json::object();
@@ -129,21 +161,45 @@ bool are_per_load(const RunText& first, const RunText& second) {
 }
 
 /// Of these what the first screen names: ways out by name, of the rest the sum.
-void add_field_dust(const RunText& run, bool is_per_load, std::vector<Figure>& list) {
+void add_field_dust(const RunText& run, const Ways& ways, std::vector<Figure>& list) {
   for (Figure figure : field_dust_of(run)) {
-    const auto name = headline_name(run, figure, is_per_load);
+    const auto name = headline_name(run, figure, ways.is_per_load());
     if (!name) continue;
+    figure.name = *name + ways.since_of(figure);
     figure.sensor = figure.sensor == "dust_rates" ? "dust rate" : "field dust";
-    figure.name = *name;
     list.push_back(std::move(figure));
   }
 }
 
-/// All figures: of the sensors, then of dust in the air and on grains.
-std::vector<Figure> all_figures(const RunText& run) {
+/// The indices by which practice ranks transfer points.
+std::vector<Figure> indices_of(const RunText& run) {
+  return figures_of({{"stream_indices", object_at(run.summary, "stream_indices")}});
+}
+
+/// Of these what says most: of impacts the sum, and causes per load; not where in the stream.
+void add_indices(const RunText& run, std::vector<Figure>& list) {
+  for (Figure figure : indices_of(run)) {
+    const std::string& name = figure.name;
+    const bool is_of_cause = name.starts_with("impact/") && !name.starts_with("impact/all/");
+    if (name == "observed" || name.ends_with("/height")) continue;
+    if (is_of_cause && !name.ends_with("/per_load")) continue;
+    figure.sensor = "index of practice";
+    std::string text;
+    for (const char c : words(name)) text += c == '/' ? std::string(", ") : std::string(1, c);
+    figure.name = text;
+    list.push_back(std::move(figure));
+  }
+}
+
+/// All figures: of the sensors, then of dust in the air and on grains, of the stream.
+std::vector<Figure> all_figures(const RunText& run, const Ways& ways) {
   std::vector<Figure> figures = run.figures;
-  const std::vector<Figure> dust = field_dust_of(run);
-  figures.insert(figures.end(), dust.begin(), dust.end());
+  for (Figure& figure : field_dust_of(run)) {
+    figure.name += ways.since_of(figure);
+    figures.push_back(std::move(figure));
+  }
+  const std::vector<Figure> indices = indices_of(run);
+  figures.insert(figures.end(), indices.begin(), indices.end());
   return figures;
 }
 
@@ -204,9 +260,32 @@ void name_as(const std::vector<LowPlace>& others, std::vector<LowPlace>& places)
   }
 }
 
+constexpr const char* k_low_pressure = "low pressure";
+
+/// What has been let in and is there, and what it took.
+void add_run(const RunText& run, const std::string& since, std::vector<Figure>& list) {
+  const auto number = [&](const std::string& name, const json& object, const char* key,
+                          const char* unit) {
+    const auto value = number_at(object, key);
+    if (!value) return;
+    Figure reported;
+    reported.sensor = "run";
+    reported.name = name;
+    reported.value = *value;
+    reported.unit = unit;
+    list.push_back(std::move(reported));
+  };
+  number("grains released" + since, object_at(run.summary, "particles"), "emitted", "1");
+  number("grains in the domain", object_at(run.summary, "particles"), "in_domain", "1");
+  number("mass released" + since, object_at(run.summary, "mass_kg"), "emitted", "kg");
+  number("mass in the domain", object_at(run.summary, "mass_kg"), "in_domain", "kg");
+  number("simulated time" + since, run.summary, "simulated_s", "s");
+  number("computing time", run.summary, "wall_s", "s");
+}
+
 /// The figures of the first screen under names that compare between runs.
 std::vector<Figure> reported_first(const RunText& run, const Highlights& highlights,
-                                   bool is_per_load) {
+                                   const Ways& ways) {
   std::vector<Figure> list;
   const auto add = [&](std::string group, std::string name, const Figure& figure) {
     Figure reported = figure;
@@ -223,35 +302,21 @@ std::vector<Figure> reported_first(const RunText& run, const Highlights& highlig
       add("dust", words(figure.sensor) + size, figure);
     }
   }
-  add_field_dust(run, is_per_load, list);
+  add_field_dust(run, ways, list);
+  add_indices(run, list);
   for (const StreamDrop& drop : highlights.stream) {
     add("stream", "median at " + base::length_text(drop.drop, 6) + " drop", drop.median);
   }
   for (const LowPlace& place : highlights.places) {
-    add("low pressure", "place " + place.name + ", x", place.x);
-    if (!place.y.name.empty()) add("low pressure", "place " + place.name + ", y", place.y);
-    add("low pressure", "place " + place.name + ", z", place.z);
-    add("low pressure", "place " + place.name + ", depth", place.depth);
+    add(k_low_pressure, "place " + place.name + ", x", place.x);
+    if (!place.y.name.empty()) add(k_low_pressure, "place " + place.name + ", y", place.y);
+    add(k_low_pressure, "place " + place.name + ", z", place.z);
+    add(k_low_pressure, "place " + place.name + ", depth", place.depth);
   }
   for (const Figure& figure : run.figures) {
     if (figure.towards == "overview") add(words(figure.sensor), words(figure.name), figure);
   }
-  const auto number = [&](const char* name, const json& object, const char* key, const char* unit) {
-    const auto value = number_at(object, key);
-    if (!value) return;
-    Figure reported;
-    reported.sensor = "run";
-    reported.name = name;
-    reported.value = *value;
-    reported.unit = unit;
-    list.push_back(std::move(reported));
-  };
-  number("grains released", object_at(run.summary, "particles"), "emitted", "1");
-  number("grains in the domain", object_at(run.summary, "particles"), "in_domain", "1");
-  number("mass released", object_at(run.summary, "mass_kg"), "emitted", "kg");
-  number("mass in the domain", object_at(run.summary, "mass_kg"), "in_domain", "kg");
-  number("simulated time", run.summary, "simulated_s", "s");
-  number("computing time", run.summary, "wall_s", "s");
+  add_run(run, ways.since_of_sums(), list);
   return list;
 }
 
@@ -270,6 +335,35 @@ std::string plain(double value, double error, const std::string& reason) {
   }
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 12);
   return base::fixed_text(value, decimals) + " +- " + base::fixed_text(error, decimals);
+}
+
+/// Whether it says where a place of low pressure is: no amount that would be more or less.
+bool is_coordinate(const QuantityPair& pair) {
+  return pair.group == k_low_pressure && !pair.name.ends_with("depth");
+}
+
+/// Where the places of low pressure are, one behind the other for both runs.
+std::string places_text(const Comparison& c) {
+  constexpr double k_mm = 1e3;  // per m
+  std::map<std::string, std::pair<std::string, std::string>> places;
+  const auto add = [](std::string& at, double value) {
+    if (std::isfinite(value)) at += (at.empty() ? "" : ", ") + base::digits_text(k_mm * value, 4);
+  };
+  for (const QuantityPair& pair : c.headline) {
+    if (!is_coordinate(pair)) continue;
+    auto& [first, second] = places[pair.name.substr(0, pair.name.find(','))];
+    add(first, pair.first);
+    add(second, pair.second);
+  }
+  if (places.empty()) return "";
+  std::string text = "Places of low pressure:\n";
+  const auto shown = [](const std::string& at) {
+    return at.empty() ? std::string("(none)") : "(" + at + ") mm";
+  };
+  for (const auto& [name, at] : places) {
+    text += "  " + name + ": " + shown(at.first) + " | " + shown(at.second) + "\n";
+  }
+  return text;
 }
 
 /// Characters, not bytes, so that columns stay in line.
@@ -325,13 +419,13 @@ Comparison compare_runs(const std::filesystem::path& first, const std::filesyste
     c.second_name = second.lexically_normal().string();
   }
   c.scenario = scenario_differences(c.first.scenario, c.second.scenario);
-  const bool is_per_load = are_per_load(c.first, c.second);
+  const Ways ways(c.first, c.second, are_per_load(c.first, c.second));
   const Highlights highlights = highlights_of(c.first);
   Highlights others = highlights_of(c.second);
   name_as(highlights.places, others.places);
-  c.headline = paired(reported_first(c.first, highlights, is_per_load),
-                      reported_first(c.second, others, is_per_load));
-  c.quantities = paired(all_figures(c.first), all_figures(c.second));
+  c.headline =
+      paired(reported_first(c.first, highlights, ways), reported_first(c.second, others, ways));
+  c.quantities = paired(all_figures(c.first, ways), all_figures(c.second, ways));
   const std::string state = text_at(c.first.summary, "state_sha256");
   const bool is_something =
       number_at(object_at(c.first.summary, "particles"), "in_domain").value_or(1.0) > 0.0 ||
@@ -346,6 +440,7 @@ std::string comparison_text(const Comparison& c) {
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"", "[unit]", c.first_name, c.second_name, "difference", "in errors"});
   for (const QuantityPair& pair : c.headline) {
+    if (is_coordinate(pair)) continue;
     char difference[32] = "-", sigmas[32] = "-";
     if (std::isfinite(pair.difference())) {
       const double off = std::abs(pair.difference()) < k_nothing ? 0.0 : pair.difference();
@@ -372,6 +467,7 @@ std::string comparison_text(const Comparison& c) {
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';
   }
+  text += places_text(c);
   if (c.is_same_state) text += "The end states are the same, bit for bit.\n";
   text += c.scenario.empty() ? "The scenarios are the same.\n" : "The scenarios differ in:\n";
   for (std::size_t k = 0; k < c.scenario.size() && k < k_max_keys; ++k) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plane_flux.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/ratio_of_means.hpp>
 #include <dust/sdk/rectangle.hpp>
@@ -233,8 +234,14 @@ class PlaneFlux final : public sdk::Sensor {
             way == k_net ? means_.mean(first) + means_.mean(first + 1) : means_.mean(first + way);
         const double error = formula::rate_error(means_.error(first + way), counted * duration,
                                                  squares_[first + way], duration);
+        sdk::FigureRole as_reported = role.of(k_what[q]);
+        // What is part of a total says so, and stands with it.
+        if (way == k_net && q == k_mass && prefix.empty() && as_reported.towards.empty()) {
+          as_reported.towards = sdk::overview(k_what[q], 1).towards;
+          as_reported.index = 1;
+        }
         sink.figure(prefix + k_way_names[way] + k_quantities[q], means_.known_mean(first + way),
-                    k_units[q], error, role.of(k_what[q]));
+                    k_units[q], error, as_reported);
         if (q != k_mass) continue;
         per_load_of(prefix + k_way_names[way] + "grams_per_tonne", first + way, counted, error,
                     role.of(sdk::Quantity::mass_per_load), sink);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "segregation.hpp"
 
+#include <dust/sdk/main_figure.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -85,7 +86,10 @@ class Segregation final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override { figures_.series(sink); }
-  void summary(sdk::FigureSink& sink) const override { figures_.summary(sink); }
+  void summary(sdk::FigureSink& sink) const override {
+    sdk::MainFigure with_main(sink, "mixing_index");
+    figures_.summary(with_main);
+  }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Mixing of fine and coarse grains", "time [s]", "mixing index [1]", "all grains",
                figures_.curve().x(), figures_.curve().y());

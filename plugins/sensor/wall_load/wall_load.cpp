@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wall_load.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -126,6 +127,7 @@ class WallLoad final : public sdk::Sensor {
   void end_row() override { row_.end_row(); }
 
   void summary(sdk::FigureSink& sink) const override {
+    summary_of_force(sink);
     for (std::size_t c = 0; c < k_columns; ++c) {
       sink.figure(k_names[c], means_.known_mean(c), k_units[c], means_.error(c),
                   sdk::detail(k_quantities[c]));
@@ -184,6 +186,19 @@ class WallLoad final : public sdk::Sensor {
   }
 
  private:
+  /// The magnitude of the mean force: what a reader asks for first, whatever the axes are.
+  void summary_of_force(sdk::FigureSink& sink) const {
+    const sdk::Vec3 mean{means_.known_mean(0), means_.known_mean(1), means_.known_mean(2)};
+    const double force = norm(mean);
+    double error = sdk::k_no_estimate;
+    if (force > 0.0) {
+      const std::array<double, k_columns> partials{mean.x / force, mean.y / force, mean.z / force};
+      error = means_.error_of_function(partials, force);
+    }
+    sink.figure("force", force, "N", sdk::error_beside(force, error),
+                sdk::overview(sdk::Quantity::force, 1));
+  }
+
   static constexpr std::size_t k_power = 6;
   static constexpr std::size_t k_mass = 7;  ///< the first of those that a moment has
   static constexpr std::size_t k_contacts = 8;

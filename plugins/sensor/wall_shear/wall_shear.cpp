@@ -2,6 +2,7 @@
 #include "wall_shear.hpp"
 
 #include <dust/sdk/fluid_cells.hpp>
+#include <dust/sdk/main_figure.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -81,7 +82,10 @@ class WallShear final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override { figures_.series(sink); }
-  void summary(sdk::FigureSink& sink) const override { figures_.summary(sink); }
+  void summary(sdk::FigureSink& sink) const override {
+    sdk::MainFigure with_main(sink, "mean");
+    figures_.summary(with_main);
+  }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Wall shear stress", "time [s]", "stress [Pa]", p_.side, figures_.curve().x(),
                figures_.curve().y());

@@ -146,6 +146,13 @@ TEST_CASE("places of low pressure shall be compared where they are, whatever the
   CHECK(pair_of("place 2, depth").difference() == 1.5);
   CHECK(std::isnan(pair_of("place 3, x").first));
   CHECK(pair_of("place 3, x").second == 0.9);
+  // In the terminal, where a place is: a coordinate is no amount that would be more or less.
+  const std::string text = comparison_text(found);
+  CAPTURE(text);
+  CHECK(holds(text, "low pressure: place 1, depth"));
+  CHECK_FALSE(holds(text, "low pressure: place 1, x"));
+  CHECK(holds(text, "place 2: (500, 600) mm | (510, 600) mm"));
+  CHECK(holds(text, "place 3: (none) | (900, 900) mm"));
 }
 
 TEST_CASE("a figure without an error shall say why, and less than an atom shall be nothing") {
@@ -242,6 +249,87 @@ TEST_CASE("dust of a field shall be compared: where it goes, what got out, what 
   CHECK(find(comparison.quantities, "deposited/belt/per_load").first == 3.0);
   CHECK(find(comparison.quantities, "back/g_per_tonne").unit == "g/t");
   CHECK(holds(comparison_text(comparison), "dust rate: left, back"));
+}
+
+TEST_CASE("the indices of practice shall be compared, and say why one has no error") {
+  const RunFolder first, second;
+  const auto fill_indices = [](const RunFolder& folder, double impact) {
+    const auto figure = [](double value, const char* unit) {
+      return json{{"value", value}, {"unit", unit}, {"uncertainty", 0.1 * value}};
+    };
+    json summary = fake_summary();
+    json air = figure(0.2, "m3/s");
+    air["uncertainty"] = nullptr;
+    air["no_error"] = "not steady";
+    summary["stream_indices"] = {{"observed", figure(1.0, "s")},
+                                 {"impact/all/power", figure(30.0 * impact, "W")},
+                                 {"impact/all/per_load", figure(impact, "J/kg")},
+                                 {"impact/hood/per_load", figure(0.5 * impact, "J/kg")},
+                                 {"impact/hood/power", figure(15.0 * impact, "W")},
+                                 {"entrained_air/flow", air},
+                                 {"entrained_air/height", figure(1.5, "m")},
+                                 {"looseness/void_fraction", figure(0.8, "1")}};
+    fill_with(folder, summary);
+  };
+  fill_indices(first, 4.0);
+  fill_indices(second, 6.0);
+  const auto comparison = compare_runs(first.path(), second.path());
+  const std::string text = comparison_text(comparison);
+  CAPTURE(text);
+  CHECK(holds(text, "index of practice: impact, all, per load"));
+  CHECK(holds(text, "index of practice: impact, hood, per load"));
+  CHECK(holds(text, "index of practice: looseness, void fraction"));
+  CHECK(holds(text, "0.2 (not steady)"));
+  CHECK_FALSE(holds(text, "height"));
+  CHECK_FALSE(holds(text, "impact, hood, power"));
+  const json page = page_data(page_of(first, second));
+  const auto has = [&](const char* list, const std::string& name) {
+    return std::any_of(page[list].begin(), page[list].end(),
+                       [&](const json& pair) { return pair["name"] == name; });
+  };
+  CHECK(has("headline", "impact, all, per load"));
+  CHECK(has("quantities", "entrained_air/height"));
+}
+
+TEST_CASE("what counts through the run that a branch started from shall say so") {
+  const RunFolder first, second;
+  const auto fill_dust = [](const RunFolder& folder, double since) {
+    json summary = fake_summary();
+    summary["dust_outflow"] = {{"back", {{"kg", 0.5}, {"kg_per_h", 2.0}}}};
+    summary["dust_on_grains"] = {
+        {"classes", {{"10_um", {{"on_grains_kg", 0.5}, {"set_free_kg", 0.25}}}}}};
+    if (since >= 0.0) summary["start_from"] = {{"time_s", 2.0}, {"rates_since_s", since}};
+    fill_with(folder, summary);
+  };
+  const auto names_of = [&] {
+    const auto comparison = compare_runs(first.path(), second.path());
+    std::vector<std::string> names;
+    for (const auto* list : {&comparison.headline, &comparison.quantities}) {
+      for (const QuantityPair& pair : *list) names.push_back(pair.name);
+    }
+    return names;
+  };
+  const auto has = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  fill_dust(first, -1.0);
+  fill_dust(second, 0.0);  // the same plant since the very beginning
+  CHECK(has(names_of(), "set free, 10 um"));
+  fill_dust(second, 2.0);
+  const auto names = names_of();
+  for (const char* sum : {"set free, 10 um", "back/kg", "mass released", "simulated time"}) {
+    CAPTURE(sum);
+    CHECK_FALSE(has(names, sum));
+    CHECK(has(names, std::string(sum) + " since t = 0"));
+  }
+  CHECK(has(names, "got out, back"));
+  CHECK(has(names, "on grains, 10 um"));
+  // Results of before, whose rates go on through the branch as well.
+  json old = json::parse(second.read("summary.json"));
+  old["start_from"] = {{"time_s", 2.0}, {"is_same_scenario", false}};
+  fill_with(second, old);
+  CHECK(has(names_of(), "got out, back since t = 0"));
+  CHECK(has(names_of(), "back/kg_per_h since t = 0"));
 }
 
 TEST_CASE("amounts per load shall never be compared with rates") {

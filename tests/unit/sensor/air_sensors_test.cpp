@@ -101,6 +101,10 @@ TEST_CASE("air_flow shall tell flows both ways, without solids and bodies") {
   CHECK(f["lowest_velocity"] == test::approx(-0.4).epsilon(k_float));
   CHECK(f["highest_velocity"] == test::approx(0.8).epsilon(k_float));
   CHECK(f["net_at_end"] == test::approx(f["net"]).epsilon(k_float));
+  // Of these the first screen and a comparison of runs show one.
+  CHECK(f.at("net").towards == "overview");
+  CHECK(f.at("net").role.quantity == sdk::Quantity::volume_rate);
+  CHECK(f.at("forward").towards.empty());
 }
 
 TEST_CASE("pressure_drop shall leave bodies out of its means and count solids with the area") {

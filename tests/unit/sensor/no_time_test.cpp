@@ -2,6 +2,7 @@
 // Means over no time: a run that ended before they began.
 #include "support/approx.hpp"
 #include "support/sensor_bench.hpp"
+#include "unit/sensor/coverage.hpp"
 
 #include <doctest/doctest.h>
 
@@ -37,7 +38,9 @@ TEST_CASE("means over no time shall be no number") {
       {"stress", {{"min", low}, {"max", high}}, {"xx", "yz", "pressure", "bulk_density"}},
       {"spillage", {{"min", low}, {"max", Vec3{0.1, 0.1, 0.0}}}, {"rate", "grams_per_tonne"}},
       {"residence_time", {{"min", low}, {"max", high}}, {"mass_inside", "mass_flow_out"}},
-      {"wall_load", {{"walls", std::vector<std::string>{"belt"}}}, {"force_x", "impact_rate"}},
+      {"wall_load",
+       {{"walls", std::vector<std::string>{"belt"}}},
+       {"force", "force_x", "impact_rate"}},
   };
   for (const Case& one : cases) {
     CAPTURE(one.sensor);
@@ -61,4 +64,23 @@ TEST_CASE("the number of impacts shall scatter as what stands for many comes at 
   const Figures figures = summary_of(*sensor);
   CHECK(figures["impacts"] == 9000.0);
   CHECK(figures.at("impacts").uncertainty == dust::test::approx(3000.0));
+}
+
+TEST_CASE("the main figure of a load on walls shall be the magnitude of its mean, with its error") {
+  const auto sensor = load_sensor("wall_load").make({{"walls", std::vector<std::string>{"belt"}}});
+  SyntheticScene world;
+  world.walls.push_back({.name = "belt"});
+  Dice dice(1);
+  for (int s = 0; s < 1024; ++s) {
+    world.walls.back().force = {3.0 + 0.1 * dice.normal(), 0.0, -4.0 + 0.1 * dice.normal()};
+    step(*sensor, world);
+  }
+  const Figures figures = summary_of(*sensor);
+  CHECK(figures["force"] == approx(std::hypot(figures["force_x"], figures["force_z"])));
+  // 0.1 N over the root of 1024, in any direction; half of all series seem to remember, by chance.
+  const double error = 0.1 / 32.0;
+  CHECK(figures.at("force").uncertainty > 0.6 * error);
+  CHECK(figures.at("force").uncertainty < 1.8 * error);
+  CHECK(figures.at("force").towards == "overview");
+  CHECK(figures.at("force_z").towards.empty());
 }

@@ -370,3 +370,19 @@ TEST_CASE("an opening shall say so of its figures, whatever the sensor is called
   CHECK(summary_of(*passage).at("net/grams_per_tonne").role.role == sdk::Role::passage);
   CHECK(summary_of(*passage).at("net/grams_per_tonne").towards.empty());
 }
+
+TEST_CASE("what passes a plane in the net shall be its main figure, unless it is part of a total") {
+  SyntheticScene world;
+  const auto passage = kind().make(k_lip);
+  step(*passage, world);
+  const Figures figures = summary_of(*passage);
+  CHECK(figures.at("net/mass_rate").towards == "overview");
+  CHECK(figures.at("net/mass_rate").role.role == sdk::Role::passage);
+  CHECK(figures.at("forward/mass_rate").towards.empty());
+  CHECK(figures.at("class_10_um/net/mass_rate").towards.empty());
+  auto parameters = k_lip;
+  parameters["role"] = std::string("opening");
+  const auto opening = kind().make(parameters);
+  step(*opening, world);
+  CHECK(summary_of(*opening).at("net/mass_rate").towards == "emission");
+}
