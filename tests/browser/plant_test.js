@@ -121,6 +121,11 @@ assert.ok(unsteady[0].startsWith('How much dust?|20\u202fg/t (not steady)|') && 
 const resting = told_of({...dusty, dust_rates: {observed: {value: 1800, unit: 's'}, 'set_free/all/rate': rate(1e-12, null), 'set_free/spoon/rate': rate(1e-12, null), 'deposited/all/rate': rate(1, null)}});
 assert.ok(resting[2].includes('settled|25\u202f%|'), resting[2]);
 assert.ok(resting[3].includes('Hardly any dust comes in the last 1'), resting[3]);
+// Of a branch with something set otherwise that is of two plants, and amounts per tonne are not told.
+const mixed = {...dusty, start_from: {rates_since_s: 900}, dust_rates: {observed: {value: 1800, unit: 's'}, 'set_free/all/rate': rate(1e-12, null), 'deposited/all/rate': rate(1, null)}};
+assert.ok(told_of(mixed)[3].includes('means over two plants') && !resting[3].includes('two plants'), told_of(mixed)[3]);
+assert.ok(!Number.isFinite(Dust.dust_stream({summary: mixed}).free.load.value));
+assert.ok(Number.isFinite(Dust.dust_stream({summary: {...mixed, start_from: {rates_since_s: 0}}}).free.load.value));
 // A field without loads: what its sources give, where it goes and what a hood catches.
 const field_of = (released, more) => ({simulated_s: 4, mass_kg: {emitted: 0}, dust_field: {classes: {x: {released_kg: released, airborne_kg: 0, deposited_kg: {}, left_kg: {}, hoods_kg: {}, balance_error: 0, ...more}}}});
 const sourced = told_of({...field_of(1e-5, {airborne_kg: 2e-6, hoods_kg: {top: 6e-6}, left_kg: {left: 2e-6}}), dust_rates: {observed: {value: 2, unit: 's'}, 'released/all/rate': rate(0.01, 1e-4),

@@ -67,13 +67,19 @@ TEST_CASE("rates of dust shall be the same bits on any threads and through a res
 
 TEST_CASE("rates of a run that starts from another shall not count what that one has let out") {
   const TemporaryFolder folder;
-  run(folder / "first", {"time.end=0.6 s"});
+  const json first = run(folder / "first", {"time.end=0.6 s"});
   // Another seed: averages are not carried over, totals are.
-  const json rates =
-      run(folder / "branch", {"time.end=0.8 s", "dust.steady_after=0.3 s", "seed=7",
-                              "start_from=" + (folder / "first").string()})["dust_rates"];
+  const json branch = run(folder / "branch", {"time.end=0.8 s", "dust.steady_after=0.3 s", "seed=7",
+                                              "start_from=" + (folder / "first").string()});
+  const json& rates = branch["dust_rates"];
   CHECK(rates["observed"]["value"].get<double>() <= 0.2 + 1e-9);
   CHECK(rates["left/right/rate"]["value"].get<double>() == approx(3.0 * k_kg_per_h).epsilon(1e-4));
+  // So do those of what got out, while its mass goes on.
+  const json& out = branch["dust_outflow"]["right"];
+  CHECK(out["kg_per_h"].get<double>() == approx(3.0 * k_kg_per_h).epsilon(1e-4));
+  CHECK(out["kg"].get<double>() ==
+        approx(first["dust_outflow"]["right"]["kg"].get<double>() + 3e-6 * 0.2).epsilon(1e-4));
+  CHECK(branch["start_from"]["rates_since_s"].get<double>() == approx(0.6).epsilon(1e-9));
 }
 
 TEST_CASE("rates of a branch shall begin in the middle of it where nothing is said") {
