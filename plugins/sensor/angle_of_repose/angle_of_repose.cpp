@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "angle_of_repose.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -104,7 +105,7 @@ class AngleOfRepose final : public sdk::Sensor {
     const double mean = means_.known_mean(0);
     sink.figure("mean_angle", mean, "deg",
                 sdk::error_beside(mean, mean > 0.0 ? means_.error(0) : sdk::k_no_estimate),
-                sdk::detail(sdk::Quantity::angle));
+                sdk::overview(sdk::Quantity::angle, 1));
     sink.figure("residual", values_[1], "m", sdk::error_beside(values_[1], sdk::k_no_estimate),
                 sdk::detail(sdk::Quantity::length));
     sink.figure("surface_grains", values_[2], "1", sdk::Quantity::number);

@@ -2,6 +2,7 @@
 #include "bubbles.hpp"
 
 #include <dust/sdk/fluid_cells.hpp>
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -109,7 +110,7 @@ class Bubbles final : public sdk::Sensor {
       const double value = means_.known_mean(n);
       const double error = value != 0.0 ? means_.error(n) : sdk::k_no_estimate;
       sink.figure(k_names[n], value, "1", sdk::error_beside(value, error),
-                  sdk::detail(k_quantities[n]));
+                  n == 0 ? sdk::overview(k_quantities[n], 1) : sdk::detail(k_quantities[n]));
     };
     // Of no bubble there is neither.
     const auto ratio = [&](std::size_t column, std::size_t above, std::size_t below) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordination.hpp"
 
+#include <dust/sdk/main_figure.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -74,8 +75,9 @@ class Coordination final : public sdk::Sensor {
   void summary(sdk::FigureSink& sink) const override {
     static constexpr const char* k_names[k_columns] = {"mean", "mechanical", "rattler_share",
                                                        "wall_contacts_per_grain"};
+    sdk::MainFigure with_main(sink, k_names[0]);
     for (std::size_t n = 0; n < k_columns; ++n) {
-      figure(sink, k_names[n], means_.mean(n), means_.error(n));
+      figure(with_main, k_names[n], means_.mean(n), means_.error(n));
       figure(sink, std::string(k_names[n]) + "_at_end", values_[n], sdk::k_no_estimate);
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinetic_energy.hpp"
 
+#include <dust/sdk/main_figure.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -60,8 +61,9 @@ class KineticEnergy final : public sdk::Sensor {
       figure(sink, k_names[n], n, values_[n], sdk::k_no_estimate);
   }
   void summary(sdk::FigureSink& sink) const override {
+    sdk::MainFigure with_main(sink, k_names[0]);
     for (std::size_t n = 0; n < k_columns; ++n) {
-      figure(sink, k_names[n], n, means_.mean(n), means_.error(n));
+      figure(with_main, k_names[n], n, means_.mean(n), means_.error(n));
       figure(sink, std::string(k_names[n]) + "_at_end", n, values_[n], sdk::k_no_estimate);
     }
     sink.figure("is_settled", is_settled_ ? 1.0 : 0.0, "1", sdk::Quantity::number);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "settling_velocity.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -90,7 +91,7 @@ class SettlingVelocity final : public sdk::Sensor {
     const double mean = means_.known_mean(0);
     sink.figure("velocity", mean, "m/s",
                 sdk::error_beside(mean, mean != 0.0 ? means_.error(0) : sdk::k_no_estimate),
-                sdk::detail(sdk::Quantity::velocity));
+                sdk::overview(sdk::Quantity::velocity, 1));
     figure(sink, "velocity_at_end", values_[0], "m/s", sdk::Quantity::velocity);
     figure(sink, "height_at_end", values_[1], "m", sdk::Quantity::length);
     const bool has_settled = largest_[0] > 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "size_distribution.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -87,7 +88,10 @@ class Sizes final : public sdk::Sensor {
   }
   void summary(sdk::FigureSink& sink) const override {
     for (std::size_t n = 0; n < k_means; ++n) {
-      figure(sink, k_names[n], n, "m", sdk::detail(sdk::Quantity::length));
+      const bool is_median = n == k_median;
+      figure(
+          sink, k_names[n], n, "m",
+          is_median ? sdk::overview(sdk::Quantity::length, 1) : sdk::detail(sdk::Quantity::length));
     }
     for (std::size_t c = 0; c < classes_.size(); ++c) {
       if (!p_.takes(classes_[c])) continue;
@@ -121,6 +125,7 @@ class Sizes final : public sdk::Sensor {
  private:
   static constexpr std::size_t k_means = 4;
   static constexpr double k_quantiles[3] = {0.1, 0.5, 0.9};
+  static constexpr std::size_t k_median = 2;
   static constexpr const char* k_names[k_means] = {"sauter_diameter", "d_10", "d_50", "d_90"};
 
   void figure(sdk::FigureSink& sink, const std::string& name, std::size_t column, const char* unit,

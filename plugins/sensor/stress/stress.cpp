@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stress.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -95,7 +96,7 @@ class Stress final : public sdk::Sensor {
     double p = 0.0;
     for (std::size_t f = 0; f < 3; ++f) p += means_.known_mean(f) / 3.0;
     sink.figure("pressure", p, "Pa", sdk::error_beside(p, sdk::k_no_estimate),
-                sdk::detail(sdk::Quantity::pressure));
+                sdk::overview(sdk::Quantity::pressure, 1));
     sink.figure("bulk_density", means_.known_mean(k_density), "kg/m3", error(k_density),
                 sdk::detail(sdk::Quantity::mass_concentration));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vorticity.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -100,7 +101,8 @@ class Vorticity final : public sdk::Sensor {
     place("fastest/x", place_.x, sdk::Quantity::x);
     place("fastest/y", place_.y, sdk::Quantity::y);
     place("fastest/z", place_.z, sdk::Quantity::z);
-    sink.figure("fastest/vorticity", fastest_, "1/s", sdk::Quantity::vorticity);
+    sink.figure("fastest/vorticity", fastest_, "1/s", sdk::k_no_estimate,
+                sdk::overview(sdk::Quantity::vorticity, 1));
   }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Largest vorticity", "time [s]", "vorticity [1/s]", "open cells", curve_.x(),
