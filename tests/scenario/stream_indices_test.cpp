@@ -63,6 +63,27 @@ TEST_CASE("the energy of impacts shall be what a bounce dissipates, at the wall 
         approx(std::pow(0.0035, 1.25)).epsilon(1e-9));
 }
 
+TEST_CASE("the energy of all impacts shall have the error of the sum of its causes") {
+  const TemporaryFolder folder;
+  const std::string rain =
+      "emitters.rain={model: feed, material: ore, mass_flow: 0.3 kg/s, min: [8, 8, 34 mm], max: "
+      "[32, 32, 34 mm], velocity: [0, 0, -1 m/s], diameters: [3 mm]}";
+  const json indices = run_summary(k_bounce, folder / "rain",
+                                   {"--set", rain, "--set", "dust.steady_after=100 ms", "--set",
+                                    "time.end=600 ms"})["stream_indices"];
+  for (const std::string of : {"power", "per_load"}) {
+    const auto error = [&](const std::string& cause) {
+      const json& figure = indices["impact/" + cause + "/" + of]["uncertainty"];
+      REQUIRE_MESSAGE(figure.is_number(), cause << ' ' << indices.dump(1));
+      return figure.get<double>();
+    };
+    const double grains = error("grains"), bottom = error("bottom");
+    // Between full agreement and full opposition of the two, as a rule like causes apart.
+    CHECK(error("all") > std::abs(grains - bottom));
+    CHECK(error("all") < grains + bottom);
+  }
+}
+
 TEST_CASE("air and looseness of a stream shall be those of grains that fall freely in even air") {
   const TemporaryFolder folder;
   const json summary = run_summary(k_stream, folder / "stream", {"--threads", "1"});

@@ -108,6 +108,22 @@ double StreamIndices::void_fraction(std::size_t level) const {
   return 1.0 - means_.mean(column(level, solids_flow)) / means_.mean(column(level, mass_flow));
 }
 
+double StreamIndices::power() const {
+  double sum = 0.0;
+  for (std::size_t n = k_power; n < first_level_; ++n) sum += means_.mean(n);
+  return sum;
+}
+
+/// Of `value`, a function of the power of all causes together and of the load, from its derivatives
+/// by them.
+double StreamIndices::error_of_power(double by_power, double by_load, double value) const {
+  std::vector<double> partials(means_.columns(), 0.0);
+  std::fill(partials.begin() + k_power,
+            partials.begin() + static_cast<std::ptrdiff_t>(first_level_), by_power);
+  partials[k_load] = by_load;
+  return means_.error_of_function(partials, value);
+}
+
 void StreamIndices::report_impacts(sdk::FigureSink& sink) const {
   // `of_ratio`: that of the power over the load.
   const auto figures = [&](const std::string& name, double power, double error, double of_ratio) {
@@ -117,10 +133,17 @@ void StreamIndices::report_impacts(sdk::FigureSink& sink) const {
     sink.figure("impact/" + name + "/per_load", is_even ? power / load() : k_unknown, "J/kg",
                 is_even ? of_ratio : sdk::k_feed_not_even, sdk::FigureRole{});
   };
-  double whole = 0.0;
-  for (std::size_t n = k_power; n < first_level_; ++n) whole += means_.mean(n);
-  // Causes are not independent of each other: their sum has no error of its own.
-  if (first_level_ > k_power) figures("all", whole, sdk::k_no_estimate, sdk::k_no_estimate);
+  if (first_level_ > k_power) {
+    const double whole = power();
+    const double error = error_of_power(1.0, 0.0, whole);
+    double of_ratio = error;
+    // As of any ratio: where the power has no error, that over the load has none either.
+    if (error >= 0.0 && load() > 0.0) {
+      const double per_load = whole / load();
+      of_ratio = error_of_power(1.0 / load(), -per_load / load(), per_load);
+    }
+    figures("all", whole, error, of_ratio);
+  }
   for (std::size_t n = k_power; n < first_level_; ++n) {
     if (means_.mean(n) > 0.0) {
       figures(liberation_->causes()[n - k_power], means_.mean(n), means_.error(n),

@@ -64,6 +64,8 @@ class StreamIndices {
   void find_air();
   [[nodiscard]] double height(std::size_t level) const;
   [[nodiscard]] double void_fraction(std::size_t level) const;
+  [[nodiscard]] double power() const;
+  [[nodiscard]] double error_of_power(double by_power, double by_load, double value) const;
   void report_impacts(sdk::FigureSink& sink) const;
   void report_levels(sdk::FigureSink& sink) const;
 
