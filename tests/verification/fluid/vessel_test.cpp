@@ -78,7 +78,7 @@ TEST_CASE("a closed vessel shall be tight wherever it lies, with walls thin and 
   for (const bool is_turned : {false, true}) {
     for (const double thickness : {0.0, 0.1, 0.3, 0.7, 1.1}) {
       int leaks = 0;
-      for (int n = 0; n < 40; ++n) {
+      for (int n = 0; n < 25; ++n) {
         const Placing p = random_placing(random, is_turned);
         Case c = still_box();
         c.bodies.push_back(body(
@@ -100,7 +100,7 @@ TEST_CASE("a vessel of six plates that meet at its edges shall be tight wherever
   for (const bool is_turned : {false, true}) {
     for (const double thickness : {0.1, 0.5}) {
       int leaks = 0;
-      for (int n = 0; n < 40; ++n) {
+      for (int n = 0; n < 25; ++n) {
         const Placing p = random_placing(random, is_turned);
         Case c = still_box();
         for (int side = 0; side < 6; ++side) {
