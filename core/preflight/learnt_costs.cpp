@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preflight/learnt_costs.hpp"
 
+#include "base/process/memory.hpp"
+
 #include <fcntl.h>
 #include <sys/file.h>
 #include <time.h>
@@ -252,6 +254,11 @@ void LearntCosts::write() const {
     if (!out) return;
   }
   fs::rename(part, file_, ignored);
+}
+
+std::string memory_shortage(const RunCost& expected) {
+  const double needed = expected.memory_bytes;
+  return base::shortage_text(needed, base::free_memory().value_or(needed));
 }
 
 double measured_slowness() {

@@ -14,6 +14,10 @@ namespace dust::preflight {
 /// takes some hundredths of a second.
 double measured_slowness();
 
+/// What is wrong with the memory that a run needs beside what is free now; "" where it fits, or
+/// nobody knows what is free.
+std::string memory_shortage(const RunCost& expected);
+
 /// What runs on this machine were told to cost and what they took, term by term, kept in the user's
 /// cache folder.
 ///

@@ -7,6 +7,8 @@
 #include "io/run_files.hpp"
 #include "io/scenario_leaves.hpp"
 #include "io/stored_state.hpp"
+#include "preflight/derived.hpp"
+#include "preflight/learnt_costs.hpp"
 #include "preflight/reader.hpp"
 #include "registry/exit_notice.hpp"
 #include "registry/guard_report.hpp"
@@ -121,6 +123,17 @@ RunFacts facts_of(const scenario::ReadResult& read, const std::vector<io::InputF
   return facts;
 }
 
+/// Of this machine as it is now, so that it is no part of the results.
+void warn_of_memory(const scenario::ReadResult& read, const registry::Registry& registry,
+                    const fs::path& file) {
+  const auto derived = preflight::derive(read.setup, registry, read.dust);
+  const auto unasked = [] { return 1.0; };  // how fast the machine is
+  const preflight::LearntCosts costs(preflight::LearntCosts::default_file(), unasked);
+  const auto expected = costs.expect(read.setup.name, derived.cost);
+  const std::string shortage = preflight::memory_shortage(expected.cost);
+  if (!shortage.empty()) base::log_warning(file.string() + ": warning: " + shortage);
+}
+
 /// The port of --live, before anything is written.
 void take_port(const RunOptions& options, std::optional<LiveReport>& live) {
   if (!options.live_port) return;
@@ -153,6 +166,7 @@ int run_scenario(const RunOptions& options) {
   const std::vector<io::InputFile> inputs = InputDigests().of(read);
   std::optional<LiveReport> live;
   take_port(options, live);
+  warn_of_memory(read, registry, options.scenario);
   scenario::Diagnostics branching;
   std::optional<Branch> branch;
   if (read.start.from && !options.resume) branch.emplace(read, inputs, registry, branching);

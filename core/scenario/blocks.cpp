@@ -72,7 +72,10 @@ const ParameterSchema& DomainBlock::schema() {
 const ParameterSchema& SideBlock::schema() {
   static const ParameterSchema made = [] {
     SchemaOf<SideBlock> s;
-    s.text(&SideBlock::grains, "grains", "What grains meet: open (they leave), wall, or periodic.")
+    s.text(
+         &SideBlock::grains, "grains",
+         "What grains meet: open (they leave), wall, or periodic. Dust of a field leaves where the "
+         "air passes, and settles elsewhere.")
         .one_of({"open", "wall", "periodic"});
     s.text(&SideBlock::material, "material", "Material of a wall.")
         .refers_to(sdk::Refers::material)

@@ -127,7 +127,9 @@ class DustQuantities {
   void add_class(const std::string& of) {
     add_all(k_of_field, of);
     const std::string beside = of + "released_kg";
-    for (const std::string& surface : surfaces_) add(of + "deposited_kg." + surface, "kg", beside);
+    for (const std::string& surface : settled_on()) {
+      add(of + "deposited_kg." + surface, "kg", beside);
+    }
     for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
       if (!lets_dust_out(side)) continue;
       add(of + "left_kg." + scenario::k_side_names[side], "kg", beside);
@@ -168,7 +170,7 @@ class DustQuantities {
     }
     if (!open.empty()) add_way("left", open, true);
     if (!hoods_.empty()) add_way("drawn_out", hoods_, true);
-    add_way("deposited", surfaces_, false);
+    add_way("deposited", settled_on(), false);
     if (dust_.liberation) {
       add_way("set_free", causes(), false);
     } else {
@@ -196,8 +198,20 @@ class DustQuantities {
 
   /// As run::DustStage::lets_dust_out.
   [[nodiscard]] bool lets_dust_out(std::size_t side) const {
-    if (setup_.domain.sides[side].grains == scenario::GrainSide::open) return true;
     return !has_hood(dust_, side) && preflight::passes_air(setup_, side, sides_.models()[side]);
+  }
+
+  /// Sides that dust settles on, whether they hold grains or not, and bodies.
+  [[nodiscard]] std::vector<std::string> settled_on() const {
+    std::vector<std::string> names;
+    for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
+      const scenario::GrainSide grains = setup_.domain.sides[side].grains;
+      const bool is_open = grains == scenario::GrainSide::open && lets_dust_out(side);
+      if (grains == scenario::GrainSide::periodic || is_open) continue;
+      names.emplace_back(scenario::k_side_names[side]);
+    }
+    for (const scenario::BodySpec& body : setup_.bodies) names.push_back(body.name);
+    return names;
   }
 
   /// Hoods, and sides that dust gets out of.
@@ -207,10 +221,9 @@ class DustQuantities {
       if (body.suction && scenario::draws_out(*body.suction)) ways.push_back(body.name);
     }
     for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
-      const std::string name = scenario::k_side_names[side];
-      if (has_hood(dust_, side)) ways.push_back(name);
-      if (!lets_dust_out(side)) continue;
-      ways.push_back(has_hood(dust_, side) ? name + run::k_beside_hood : name);
+      if (has_hood(dust_, side) || lets_dust_out(side)) {
+        ways.emplace_back(scenario::k_side_names[side]);
+      }
     }
     return ways;
   }

@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <new>
 
 namespace {
 
@@ -135,6 +136,10 @@ int reported_main(int argc, char** argv) {
     return k_wrong_input;
   } catch (const std::filesystem::filesystem_error& problem) {
     std::cerr << "error: " << problem.path1().string() << ": " << problem.code().message() << '\n';
+    return k_failed;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "error: there is no more memory; take coarser cells of the fluid or fewer grains, "
+                 "or a larger machine ('engine check' says what a run needs)\n";
     return k_failed;
   } catch (const std::exception& problem) {
     std::cerr << "error: " << problem.what() << '\n';

@@ -4,7 +4,6 @@
 #include "dust/sdk/sampling.hpp"
 #include "fluid/cells_beside.hpp"
 #include "fluid/parallel.hpp"
-#include "preflight/air/air_passage.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +15,6 @@ namespace {
 using fluid::for_rows;
 using fluid::Grid;
 
-/// Part of a face that an opening may miss or reach beyond by rounding.
-constexpr double k_rounding = 1e-9;
 std::size_t at(std::ptrdiff_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
@@ -34,8 +31,9 @@ DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec
       models_(models),
       fluid_(fluid),
       openings_(std::move(openings)),
+      sides_(setup, models, fluid.grid(), openings_),
       flow_(fluid.grid()),
-      walls_(setup, models, fluid, spec.resuspension || spec.has_smooth_walls),
+      walls_(setup, models, fluid, sides_, spec.resuspension || spec.has_smooth_walls),
       field_(fluid.grid(), spec, {setup.fluid->density, setup.fluid->viscosity}, setup.gravity,
              {openings_.size(), 6 + setup.bodies.size(), has_running_surfaces(setup)}),
       weight_(fluid.grid(), setup.gravity, spec.density, setup.fluid->density),
@@ -45,43 +43,7 @@ DustStage::DustStage(const scenario::Setup& setup, const scenario::DustFieldSpec
   if (spec.has_smooth_walls) {
     flow_.smooth_wall_viscosity = setup.fluid->viscosity / setup.fluid->density;
   }
-  mark_hoods();
-}
-
-void DustStage::mark_hoods() {
-  const Grid& grid = fluid_.grid();
-  for (std::size_t o = 0; o < openings_.size(); ++o) {
-    if (openings_[o].side < 0) continue;
-    const auto side = static_cast<std::size_t>(openings_[o].side);
-    const std::size_t e = (side / 2 + 1) % 3;
-    const std::size_t f = (side / 2 + 2) % 3;
-    const auto is_covered = [&](std::size_t axis, int cell) {
-      const int n = static_cast<int>(axis);
-      const double h = grid.spacing[n];
-      const double low = grid.origin[n] + cell * h;
-      return std::min(low + h, openings_[o].max[n]) - std::max(low, openings_[o].min[n]) >
-             k_rounding * h;
-    };
-    // What passes the others is not drawn out: the side is a wall to the gas there, and dust sinks
-    // through it where it is open to grains.
-    std::vector<std::int32_t>& outlet = flow_.side_outlet[side];
-    outlet.assign(static_cast<std::size_t>(grid.count[e]) * grid.count[f], -1);
-    for (int b = 0; b < grid.count[f]; ++b) {
-      for (int a = 0; a < grid.count[e]; ++a) {
-        if (!is_covered(e, a) || !is_covered(f, b)) continue;
-        outlet[static_cast<std::size_t>(b) * grid.count[e] + a] = static_cast<std::int32_t>(o);
-      }
-    }
-  }
-}
-
-bool DustStage::lets_dust_out(std::size_t side) const {
-  if (setup_.domain.sides[side].grains == scenario::GrainSide::open) return true;
-  const bool has_opening = std::any_of(
-      openings_.begin(), openings_.end(),
-      [&](const particles::Opening& opening) { return opening.side == static_cast<int>(side); });
-  // Beside its opening a side holds the air.
-  return !has_opening && preflight::passes_air(setup_, side, models_.boundaries[side].get());
+  flow_.side_outlet = sides_.outlets();
 }
 
 std::vector<std::string> DustStage::surface_names() const {
@@ -108,23 +70,21 @@ void DustStage::find_passage() {
   for (std::size_t d = 0; d < 3; ++d) {
     std::array<int, 3> n = grid.count;
     n[d] += 1;
-    const auto is_wall = [&](std::size_t high) {
-      return setup_.domain.sides[2 * d + high].grains == scenario::GrainSide::wall;
+    const auto is_wall_face = [&](const std::array<int, 3>& cell, int along) {
+      if (grid.is_periodic[d]) return false;
+      return (along == 0 && sides_.settles_on(2 * d, cell)) ||
+             (along == grid.count[d] && sides_.settles_on(2 * d + 1, cell));
     };
-    const bool low_is_wall = is_wall(0), high_is_wall = is_wall(1);
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid.index(0, j, k);
-      const int place[3] = {0, j, k};
       for (int i = 0; i < n[0]; ++i) {
-        const int along = d == 0 ? i : place[d];
-        const bool is_wall_face =
-            !grid.is_periodic[d] &&
-            ((along == 0 && low_is_wall) || (along == grid.count[d] && high_is_wall));
+        const std::array<int, 3> place{i, j, k};
+        const int along = place[d];
         const fluid::CellsBeside cells = fluid::cells_beside(grid, d, along);
         const double below = eps[at(o + i + cells.below)];
         const double above = eps[at(o + i + cells.above)];
         flow_.passage.component[d][at(o + i)] =
-            is_wall_face ? 0.0 : open.component[d][at(o + i)] * 0.5 * (below + above);
+            is_wall_face(place, along) ? 0.0 : open.component[d][at(o + i)] * 0.5 * (below + above);
       }
     });
   }

@@ -6,6 +6,7 @@
 #include "io/run_files.hpp"
 #include "particles/openings/opening.hpp"
 #include "run/archive_parts.hpp"
+#include "run/dust/dust_sides.hpp"
 #include "run/dust/dust_table.hpp"
 #include "run/dust/dust_walls.hpp"
 #include "run/dust/scavenging.hpp"
@@ -68,9 +69,8 @@ class DustStage {
   /// Names of the surfaces of DustBalance::surfaces.
   [[nodiscard]] std::vector<std::string> surface_names() const;
   [[nodiscard]] const std::vector<particles::Opening>& openings() const { return openings_; }
-  /// May dust get out through a side, besides its opening if it has one: with the air, or by
-  /// sinking where grains get out?
-  [[nodiscard]] bool lets_dust_out(std::size_t side) const;
+  /// See DustSides.
+  [[nodiscard]] bool lets_dust_out(std::size_t side) const { return sides_.lets_dust_out(side); }
 
   /// Copies what sensors of dust see.
   void take_columns() { table_.take(field_, flow_.volume_after); }
@@ -91,12 +91,12 @@ class DustStage {
   void find_volume(fluid::CellField& volume) const;
   void find_passage();
   void find_outflows();
-  void mark_hoods();
 
   const scenario::Setup& setup_;
   const Models& models_;
   FluidStage& fluid_;
   std::vector<particles::Opening> openings_;
+  DustSides sides_;
   airborne::Flow flow_;
   bool must_find_walls_ = true;
   DustWalls walls_;

@@ -34,8 +34,8 @@ std::size_t slot(std::ptrdiff_t index) { return static_cast<std::size_t>(index);
 }  // namespace
 
 DustWalls::DustWalls(const scenario::Setup& setup, const Models& models, const FluidStage& fluid,
-                     bool has_shear)
-    : setup_(setup), models_(models), fluid_(fluid), passable_area_(fluid.grid()) {
+                     const DustSides& sides, bool has_shear)
+    : setup_(setup), models_(models), fluid_(fluid), sides_(sides), passable_area_(fluid.grid()) {
   if (has_shear) shear_.emplace(fluid.grid(), setup.fluid->viscosity / setup.fluid->density);
 }
 
@@ -46,7 +46,7 @@ void DustWalls::add_sides(const Cell& cell) {
     const std::size_t d = side / 2;
     const bool is_high = side % 2 != 0;
     if (grid.is_periodic[d] || cell[d] != (is_high ? grid.count[d] - 1 : 0)) continue;
-    if (setup_.domain.sides[side].grains != scenario::GrainSide::wall) continue;
+    if (!sides_.settles_on(side, cell)) continue;
     const int axis = static_cast<int>(d);
     const std::ptrdiff_t face = is_high ? o + grid.stride[d] : o;
     const double open = passable_area_.component[d][slot(face)];

@@ -3,6 +3,7 @@
 
 #include "airborne/flow.hpp"
 #include "fluid/geometry/body_field.hpp"
+#include "run/dust/dust_sides.hpp"
 #include "run/dust/wall_shear.hpp"
 #include "run/fluid_stage.hpp"
 #include "run/models.hpp"
@@ -16,12 +17,12 @@
 
 namespace dust::run {
 
-/// The surfaces that dust meets, cell by cell: sides that hold grains, and bodies.
+/// The surfaces that dust meets, cell by cell: sides that it settles on, and bodies.
 class DustWalls {
  public:
   /// All are kept by reference; `has_shear`: somebody asks for the friction velocity.
   DustWalls(const scenario::Setup& setup, const Models& models, const FluidStage& fluid,
-            bool has_shear);
+            const DustSides& sides, bool has_shear);
 
   /// Where they are at `time` [s], and which of them run. `is_anew`: not only bodies that move may
   /// have changed.
@@ -48,6 +49,7 @@ class DustWalls {
   const scenario::Setup& setup_;
   const Models& models_;
   const FluidStage& fluid_;
+  const DustSides& sides_;
   fluid::FaceField passable_area_;
   std::vector<airborne::WallPiece> pieces_;  ///< with all of their areas, whatever is before them
   /// A piece of a body that moves.

@@ -14,7 +14,4 @@ namespace dust::run {
 std::vector<particles::Opening> openings_of(const scenario::Setup& setup,
                                             const scenario::DustSetup& dust);
 
-/// Behind the name of a side: what sinks out of it beside its hood.
-inline constexpr const char* k_beside_hood = "_beside_hood";
-
 }  // namespace dust::run

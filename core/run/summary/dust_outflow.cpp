@@ -70,9 +70,8 @@ Json dust_outflow_json(const Simulation& s, const RunFacts& facts) {
   for (std::size_t side = 0; side < 6; ++side) {
     if (!s.dust_stage()->lets_dust_out(side)) continue;
     const std::string name = scenario::k_side_names[side];
-    j[j.contains(name) ? name + k_beside_hood : name] =
-        sampled(s, begin, k_by_side, name,
-                [&](const airborne::DustBalance& balance) { return balance.left[side]; });
+    j[name] = sampled(s, begin, k_by_side, name,
+                      [&](const airborne::DustBalance& balance) { return balance.left[side]; });
   }
   return j;
 }

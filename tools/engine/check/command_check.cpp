@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/process/memory.hpp"
 #include "base/text.hpp"
 #include "check/check_summary.hpp"
 #include "check/setup_page.hpp"
@@ -65,8 +64,7 @@ void add_check(CLI::App& app, int&) {
     preflight::try_placing(result.setup, *registry, derived, begin);
     const auto survey = preflight::survey_bodies(result.setup, *registry);
     const auto learnt = preflight::LearntCosts().expect(result.setup.name, derived.cost);
-    const double memory = learnt.cost.memory_bytes;
-    const std::string shortage = base::shortage_text(memory, base::free_memory().value_or(memory));
+    const std::string shortage = preflight::memory_shortage(learnt.cost);
     if (!shortage.empty()) {
       std::cerr << options.scenario.string() << ": warning: " << shortage << '\n';
     }
