@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/calibration/surrogate.hpp"
-
 #include "base/error.hpp"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include "study/calibration/conditional_process.hpp"
+#include "study/calibration/surrogate.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace dust::study {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Bounds of the hyperparameters, as logarithms: lengths in units of the range, and the scatter of
-/// a run over the process's own standard deviation.
+/// Bounds of the scales.
 constexpr double k_shortest = -2.3;     // 0.1
 constexpr double k_longest = 2.3;       // 10
 constexpr double k_min_scatter = -9.2;  // 1e-4
@@ -27,11 +23,15 @@ constexpr double k_max_scatter = 0.7;   // 2
 constexpr double k_likely_length = -0.2;
 constexpr double k_length_spread = 1.1;
 
-double matern(double r) {
-  const double q = std::sqrt(5.0) * r;
-  return (1.0 + q + q * q / 3.0) * std::exp(-q);
-}
+/// Steps of the chain, and how many of its places are kept. A chain ten times as long moves means
+/// by a tenth of their errors.
+constexpr int k_steps = 600;
+constexpr int k_kept = 12;
+/// Half-widths of a step, about the width of the likelihood of ten runs.
+constexpr double k_length_step = 1.7;
+constexpr double k_scatter_step = 3.5;
 
+/// The mean over Gaussian processes of the scales that the runs leave possible.
 class GaussianProcess final : public Surrogate {
  public:
   void fit(const std::vector<std::vector<double>>& places, const std::vector<double>& values,
@@ -41,165 +41,104 @@ class GaussianProcess final : public Surrogate {
     if (places.size() < fewest(dimensions)) {
       throw base::RunError("too few runs finished to learn from: " + std::to_string(places.size()));
     }
-    y_ = Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-    const double mean = y_.mean();
-    unit_ = std::sqrt((y_.array() - mean).square().mean());
-    if (!(unit_ > 0.0)) unit_ = std::max(1e-12, std::abs(mean) * 1e-9);
-    origin_ = mean;
-    y_ = (y_.array() - mean) / unit_;
-    search(dimensions);
-    factorise();
-    unheld_ = variances_above(errors, scatter());
+    values_ = Eigen::Map<const VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    origin_ = values_.mean();
+    unit_ = std::sqrt((values_.array() - origin_).square().mean());
+    if (!(unit_ > 0.0)) unit_ = std::max(1e-12, std::abs(origin_) * 1e-9);
+    values_ = (values_.array() - origin_) / unit_;
+    walk(likeliest(dimensions));
+    variances_of_runs_ = variances_above(errors, scatter());
+    for (double& v : variances_of_runs_) v /= unit_ * unit_;
+    if (!(mean_variance(variances_of_runs_) > 0.0)) variances_of_runs_.clear();
   }
 
   [[nodiscard]] Prediction at(const std::vector<double>& place) const override {
-    const VectorXd r = correlations(place);
-    const VectorXd h = trend(place);
-    const VectorXd solved = factor_.solve(r);
-    const double mean = h.dot(beta_) + r.dot(weights_);
-    const VectorXd u = h - basis_.transpose() * solved;
-    const VectorXd of_trend = trend_factor_.solve(u);
-    const double variance = 1.0 - r.dot(solved) + u.dot(of_trend);
-    const VectorXd w = solved + solved_basis_ * of_trend;  // mean = w . y
-    double of_runs = 0.0;
-    for (Eigen::Index i = 0; i < w.size(); ++i) {
-      of_runs += w[i] * w[i] * unheld_[static_cast<std::size_t>(i)];
+    double mean = 0.0, square = 0.0, variance = 0.0;
+    for (const ConditionalProcess& process : processes_) {
+      const Prediction p = process.at(place, variances_of_runs_);
+      mean += p.mean;
+      square += p.mean * p.mean;
+      variance += p.variance;
     }
-    return {origin_ + unit_ * mean, unit_ * unit_ * sigma2_ * std::max(0.0, variance) + of_runs};
+    const auto count = static_cast<double>(processes_.size());
+    mean /= count;
+    variance = variance / count + std::max(0.0, square / count - mean * mean);
+    return {origin_ + unit_ * mean, unit_ * unit_ * variance};
   }
 
   void add_virtual_run(const std::vector<double>& place) override {
-    const double expected = (at(place).mean - origin_) / unit_;
-    const double sigma2 = sigma2_;
-    places_.push_back(place);
-    y_.conservativeResize(y_.size() + 1);
-    y_[y_.size() - 1] = expected;
-    unheld_.push_back(mean_variance(unheld_));
-    factorise();
-    sigma2_ = sigma2;  // what is expected teaches nothing about the scale
+    for (ConditionalProcess& process : processes_) process.add_virtual_run(place);
+    if (variances_of_runs_.empty()) return;
+    variances_of_runs_.push_back(mean_variance(variances_of_runs_));
   }
 
   [[nodiscard]] double scatter() const override {
-    return unit_ * std::sqrt(sigma2_) * std::exp(parameters_.back());
+    double variance = 0.0;
+    for (const ConditionalProcess& process : processes_) variance += process.scatter_variance();
+    return unit_ * std::sqrt(variance / static_cast<double>(processes_.size()));
   }
   [[nodiscard]] std::size_t fewest(std::size_t dimensions) const override { return dimensions + 3; }
 
  private:
-  [[nodiscard]] static VectorXd trend(const std::vector<double>& x) {
-    VectorXd h(static_cast<Eigen::Index>(x.size() + 1));
-    h[0] = 1.0;
-    for (std::size_t d = 0; d < x.size(); ++d) h[static_cast<Eigen::Index>(d + 1)] = x[d];
-    return h;
-  }
-  [[nodiscard]] double correlation(const std::vector<double>& a,
-                                   const std::vector<double>& b) const {
-    double k = 1.0;
-    for (std::size_t d = 0; d < a.size(); ++d) {
-      k *= matern(std::abs(a[d] - b[d]) * std::exp(-parameters_[d]));
-    }
-    return k;
-  }
-  [[nodiscard]] VectorXd correlations(const std::vector<double>& x) const {
-    VectorXd r(static_cast<Eigen::Index>(places_.size()));
-    for (std::size_t n = 0; n < places_.size(); ++n) {
-      r[static_cast<Eigen::Index>(n)] = correlation(x, places_[n]);
-    }
-    return r;
-  }
-
-  /// Everything that follows from places, values and hyperparameters; returns the logarithm of the
-  /// restricted likelihood (up to a constant).
-  double factorise() {
-    const auto n = static_cast<Eigen::Index>(places_.size());
-    MatrixXd k(n, n);
-    basis_.resize(n, static_cast<Eigen::Index>(places_.front().size() + 1));
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto& a = places_[static_cast<std::size_t>(i)];
-      basis_.row(i) = trend(a);
-      for (Eigen::Index j = 0; j <= i; ++j) {
-        k(i, j) = correlation(a, places_[static_cast<std::size_t>(j)]);
-        k(j, i) = k(i, j);
-      }
-    }
-    const double g = std::exp(parameters_.back());
-    k.diagonal().array() += g * g;
-    factor_.compute(k);
-    solved_basis_ = factor_.solve(basis_);
-    const MatrixXd normal = basis_.transpose() * solved_basis_;
-    trend_factor_.compute(normal);
-    beta_ = trend_factor_.solve(solved_basis_.transpose() * y_);
-    const VectorXd rest = y_ - basis_ * beta_;
-    weights_ = factor_.solve(rest);
-    const auto freedom = static_cast<double>(n - basis_.cols());
-    sigma2_ = std::max(1e-12, rest.dot(weights_) / freedom);
-    if (factor_.info() != Eigen::Success || trend_factor_.info() != Eigen::Success) {
-      return -std::numeric_limits<double>::infinity();
-    }
-    const MatrixXd lower = factor_.matrixL();
-    const MatrixXd trend_lower = trend_factor_.matrixL();
-    return -0.5 * freedom * std::log(sigma2_) - lower.diagonal().array().log().sum() -
-           trend_lower.diagonal().array().log().sum();
-  }
-
-  double score(const std::vector<double>& parameters) {
-    parameters_ = parameters;
-    double sum = factorise();
-    for (std::size_t d = 0; d + 1 < parameters.size(); ++d) {
-      const double z = (parameters[d] - k_likely_length) / k_length_spread;
+  /// Logarithm of the likelihood times the prior; minus infinity outside the bounds.
+  [[nodiscard]] double score(const ProcessScales& scales) const {
+    double sum = 0.0;
+    for (const double length : scales.lengths) {
+      if (length < k_shortest || length > k_longest) return -infinity();
+      const double z = (length - k_likely_length) / k_length_spread;
       sum -= 0.5 * z * z;
     }
-    return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
+    if (scales.scatter < k_min_scatter || scales.scatter > k_max_scatter) return -infinity();
+    sum += ConditionalProcess(places_, values_, scales).likelihood();
+    return std::isfinite(sum) ? sum : -infinity();
   }
 
-  /// The likeliest hyperparameters: compass search from several starts, the same every time.
-  void search(std::size_t dimensions) {
-    std::vector<double> best;
-    double best_score = -std::numeric_limits<double>::infinity();
+  static double infinity() { return std::numeric_limits<double>::infinity(); }
+
+  /// The best of a few scales: where the chain begins.
+  [[nodiscard]] ProcessScales likeliest(std::size_t dimensions) const {
+    ProcessScales best;
+    double best_score = -infinity();
     for (const double length : {-1.0, 0.0, 1.0}) {
       for (const double scatter : {-6.0, -3.0, -1.0}) {
-        std::vector<double> at(dimensions + 1, length);
-        at.back() = scatter;
-        double here = score(at);
-        for (double step = 1.0; step > 0.05;) {
-          bool is_better = false;
-          for (std::size_t d = 0; d <= dimensions; ++d) {
-            const bool is_length = d < dimensions;
-            for (const double sign : {1.0, -1.0}) {
-              std::vector<double> next = at;
-              next[d] = std::clamp(next[d] + sign * step, is_length ? k_shortest : k_min_scatter,
-                                   is_length ? k_longest : k_max_scatter);
-              const double there = score(next);
-              if (there <= here + 1e-9) continue;
-              at = next;
-              here = there;
-              is_better = true;
-            }
-          }
-          if (!is_better) step *= 0.5;
-        }
-        if (here > best_score) {
-          best_score = here;
-          best = at;
-        }
+        const ProcessScales scales{std::vector<double>(dimensions, length), scatter};
+        const double there = score(scales);
+        if (there <= best_score && !best.lengths.empty()) continue;
+        best = scales;
+        best_score = there;
       }
     }
-    parameters_ = best.empty() ? std::vector<double>(dimensions + 1, 0.0) : best;
+    return best;
+  }
+
+  /// A chain of Metropolis, the same every time.
+  void walk(ProcessScales here) {
+    std::mt19937_64 random(1);
+    const auto draw = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
+    const std::size_t dimensions = here.lengths.size();
+    double score_here = score(here);
+    processes_.clear();
+    for (int step = 0; step < k_steps; ++step) {
+      ProcessScales there = here;
+      const std::size_t d = random() % (dimensions + 1);
+      const bool is_length = d < dimensions;
+      (is_length ? there.lengths[d] : there.scatter) +=
+          (is_length ? k_length_step : k_scatter_step) * (2.0 * draw() - 1.0);
+      const double score_there = score(there);
+      if (std::log(draw() + 1e-300) < score_there - score_here) {
+        here = there;
+        score_here = score_there;
+      }
+      if ((step + 1) % (k_steps / k_kept) == 0) processes_.emplace_back(places_, values_, here);
+    }
   }
 
   std::vector<std::vector<double>> places_;
-  VectorXd y_;  ///< in units of its own scatter
+  VectorXd values_;  ///< in units of their own scatter
   double origin_ = 0.0;
   double unit_ = 1.0;
-  std::vector<double> parameters_;  ///< logarithms of the lengths and of the scatter
-  MatrixXd basis_;
-  MatrixXd solved_basis_;
-  std::vector<double>
-      unheld_;  ///< variances of runs beyond the scatter, in the values' unit squared
-  Eigen::LLT<MatrixXd> factor_;
-  Eigen::LLT<MatrixXd> trend_factor_;
-  VectorXd beta_;
-  VectorXd weights_;
-  double sigma2_ = 1.0;
+  std::vector<ConditionalProcess> processes_;
+  std::vector<double> variances_of_runs_;  ///< beyond the scatter, in units of values_ squared
 };
 
 }  // namespace

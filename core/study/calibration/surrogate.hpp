@@ -45,9 +45,11 @@ double mean_variance(const std::vector<double>& variances);
 
 /// Gaussian process on a linear trend,
 /// \f$ y = h(x)^T b + z(x) + e \f$, \f$ \mathrm{cov}(z) = s^2 \prod_d k(|x_d - x'_d| / l_d) \f$
-/// with the Matern function of order 5/2; b and s^2 by generalised least squares, lengths and
-/// scatter by the largest restricted likelihood with a weak prior on them (Rasmussen and Williams
-/// 2006, chapters 2.7, 4.2 and 5.4).
+/// with the Matern function of order 5/2; b and s^2 by generalised least squares (Rasmussen and
+/// Williams 2006, chapters 2.7 and 4.2). Few runs hardly tell shape from scatter, so that nothing
+/// rests on one pair of lengths and scatter: predictions are means over a chain of them, drawn by
+/// their restricted likelihood with a weak prior on the lengths (chapter 5.2), and s^2 allows for
+/// the number of runs that it is known from.
 std::unique_ptr<Surrogate> make_gaussian_process();
 
 /// Full quadratic polynomial by least squares (a response surface, Box and Wilson 1951); its

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <random>
 
 using dust::test::approx;
 using namespace dust::study;
@@ -80,6 +81,40 @@ TEST_CASE("a Gaussian process shall tell scatter of runs from the function") {
   CHECK(process->at({0.5}).mean == approx(2.5).epsilon(0.03));
   // The error of the mean is far below the scatter of one run.
   CHECK(std::sqrt(process->at({0.5}).variance) < 0.06);
+}
+
+TEST_CASE("a Gaussian process shall know how little it knows from few runs that scatter") {
+  // The function spans 4 units. Ten runs in two directions hardly tell scatter from shape.
+  for (const std::size_t count : {std::size_t{8}, std::size_t{10}, std::size_t{20}}) {
+    for (const double scatter : {0.0, 0.05, 0.2, 0.8}) {
+      std::mt19937 random(7);
+      std::normal_distribution<double> noise(0.0, 1.0);
+      std::size_t covered = 0, asked = 0;
+      double learnt = 0.0;
+      constexpr int k_studies = 60;
+      for (int study = 0; study < k_studies; ++study) {
+        const Sample places = sobol(count, 2, static_cast<unsigned>(study + 1));
+        std::vector<double> values = values_of(places);
+        for (double& v : values) v += scatter * noise(random);
+        const auto process = make_gaussian_process();
+        process->fit(places, values);
+        learnt += process->scatter() / k_studies;
+        for (const auto& place : latin_hypercube(20, 2, static_cast<unsigned>(study + 100))) {
+          const Prediction p = process->at(place);
+          ++asked;
+          if (std::abs(p.mean - bend(place)) <= 2.0 * std::sqrt(p.variance)) ++covered;
+        }
+      }
+      CAPTURE(count);
+      CAPTURE(scatter);
+      CAPTURE(learnt);
+      // Two standard errors should cover 95 %; a factor of two of the misses is allowed.
+      CHECK(covered >= 0.9 * asked);
+      // What is not there is not found; what is, within a third.
+      if (scatter >= 0.2) CHECK(learnt == approx(scatter).epsilon(0.35));
+      if (scatter == 0.0) CHECK(learnt < 0.2);
+    }
+  }
 }
 
 TEST_CASE("what is taken for granted shall narrow the variance and leave the mean") {
