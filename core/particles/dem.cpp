@@ -64,7 +64,9 @@ Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
   if (options.catches_dust) loads.let_catch();
   if (options.keeps_wind) store.keep_wind();
   set_openings(std::move(options.openings));
-  if (options.records_wall_loads) wall_loads.begin(conditions.surfaces, walls);
+  if (options.records_wall_loads) {
+    wall_loads.begin(conditions.surfaces, walls, options.records_wall_sliding);
+  }
   if (setup.audit.energy) accounts.energy.begin();
   if (options.all_step || setup.audit.energy) inner.let_all_step();
 }
@@ -432,7 +434,7 @@ void Dem::Impl::load(sdk::ArchiveReader& archive) {
   if (state.at(k_rebuild_due) != 0) due = OuterList::Due::rebuild;
   if (state.at(k_reorder_due) != 0) due = OuterList::Due::reorder;
   store.load(archive, state.at(k_next_id), state.at(k_has_drag) != 0);
-  const std::size_t tiles = tile_step.load(archive, wall_loads.walls());
+  const std::size_t tiles = tile_step.load(archive, wall_loads);
   // Checkpoints of before are of runs whose lists had been made with it.
   const std::int64_t lifetime =
       state.size() > k_list_lifetime ? state[k_list_lifetime] : tuner.outer_lifetime();

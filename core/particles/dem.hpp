@@ -93,7 +93,8 @@ struct DemOptions {
   bool keeps_wind = false;    ///< GrainRows::wind is asked for; with a fluid only
   /// Particles that touch these are drawn out.
   std::vector<Opening> openings;
-  bool records_wall_loads = false;  ///< close_wall_loads() is called
+  bool records_wall_loads = false;    ///< close_wall_loads() is called
+  bool records_wall_sliding = false;  ///< with slidings
   /// None flies freely: add_force() acts on all coarse particles.
   bool all_step = false;
 };

@@ -110,7 +110,7 @@ void Dem::Impl::rebuild() {
   has_weights = store.has_weights(tiling.coarse_count);
   outer.build(list_scene(), tuner);
   inner.adopt(outer, contacts);
-  tile_step.restart(outer.tiles(), wall_loads.walls());
+  tile_step.restart(outer.tiles(), wall_loads);
   accounts.energy.restart(outer.tiles());
   fine_level.clear_force(store.size() - tiling.coarse_count);
 }

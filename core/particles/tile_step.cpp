@@ -9,8 +9,8 @@
 
 namespace dust::particles {
 
-void TileStep::restart(std::size_t tiles, std::size_t walls) {
-  contact_forces_.restart(tiles, walls);
+void TileStep::restart(std::size_t tiles, const WallLoads& loads) {
+  contact_forces_.restart(tiles, loads);
   phase_times_.restart(tiles);
   contact_force_.clear();  // in the order of rows that were
 }
@@ -221,10 +221,10 @@ void TileStep::save(sdk::ArchiveWriter& archive, const Tiling& tiling) const {
   archive.number("largest_coarse_overlap", contact_forces_.largest_overlap());
 }
 
-std::size_t TileStep::load(sdk::ArchiveReader& archive, std::size_t walls) {
+std::size_t TileStep::load(sdk::ArchiveReader& archive, const WallLoads& loads) {
   const auto bounds = archive.integers("tiles");
   const std::size_t tiles = bounds.size() / 3;
-  restart(tiles, walls);
+  restart(tiles, loads);
   for (std::size_t t = 0; t < tiles; ++t) contact_forces_.set_contacts(t, bounds[3 * t + 2]);
   contact_forces_.set_largest_overlap(archive.number("largest_coarse_overlap"));
   const auto forces = archive.numbers("contact_force");

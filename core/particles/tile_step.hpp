@@ -39,8 +39,8 @@ struct StepScene {
 /// add something in between, the bits are the same.
 class TileStep {
  public:
-  /// A new outer list: so many tiles, and walls whose loads are kept.
-  void restart(std::size_t tiles, std::size_t walls);
+  /// A new outer list: so many tiles, and the walls whose loads are kept.
+  void restart(std::size_t tiles, const WallLoads& loads);
   /// A new inner list, which has planned ghosts().
   void begin_list(std::size_t tiles) { deferred_.restart(tiles); }
   [[nodiscard]] GhostExchange& ghosts() { return ghosts_; }
@@ -66,7 +66,7 @@ class TileStep {
 
   void save(sdk::ArchiveWriter& archive, const Tiling& tiling) const;
   /// Returns the number of tiles.
-  std::size_t load(sdk::ArchiveReader& archive, std::size_t walls);
+  std::size_t load(sdk::ArchiveReader& archive, const WallLoads& loads);
 
  private:
   /// Which active particles of a tile: all, those that other tiles look at, the others.

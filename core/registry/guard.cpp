@@ -589,6 +589,9 @@ class Sensor : public Guarded<sdk::Sensor> {
   [[nodiscard]] bool wants_walls() const override {
     return get("wants_walls", &sdk::Sensor::wants_walls);
   }
+  [[nodiscard]] bool wants_sliding() const override {
+    return get("wants_sliding", &sdk::Sensor::wants_sliding);
+  }
 
  private:
   void refuse_fault(const SinkFaults& checked, const char* asked) const {

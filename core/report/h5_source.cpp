@@ -130,6 +130,33 @@ std::vector<std::string> H5Source::texts(const std::string& object, const std::s
   return list;
 }
 
+std::string H5Source::text(const std::string& object, const std::string& name) const {
+  const Handle attribute = attribute_of(file_, object, name);
+  if (attribute < 0) return {};
+  const Handle given(H5Aget_type(attribute), H5Tclose);
+  if (H5Tget_class(given) != H5T_STRING || H5Tis_variable_str(given) != 0) return {};
+  std::string found(H5Tget_size(given), '\0');
+  if (H5Aread(attribute, given, found.data()) < 0) return {};
+  return found.substr(0, found.find('\0'));
+}
+
+std::vector<std::string> H5Source::members(const std::string& group) const {
+  if (!is_open()) return {};
+  const Handle node(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+  H5G_info_t info{};
+  if (node < 0 || H5Gget_info(node, &info) < 0) return {};
+  std::vector<std::string> names;
+  for (hsize_t k = 0; k < info.nlinks; ++k) {
+    const auto length =
+        H5Lget_name_by_idx(node, ".", H5_INDEX_NAME, H5_ITER_INC, k, nullptr, 0, H5P_DEFAULT);
+    if (length <= 0) continue;
+    std::string& name = names.emplace_back(static_cast<std::size_t>(length), '\0');
+    H5Lget_name_by_idx(node, ".", H5_INDEX_NAME, H5_ITER_INC, k, name.data(), name.size() + 1,
+                       H5P_DEFAULT);
+  }
+  return names;
+}
+
 std::vector<std::size_t> H5Source::shape(const std::string& dataset) const {
   if (!is_open()) return {};
   const Handle set(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);

@@ -32,6 +32,10 @@ class H5Source {
   /// An attribute of texts.
   [[nodiscard]] std::vector<std::string> texts(const std::string& object,
                                                const std::string& name) const;
+  /// An attribute of one text; empty where there is none.
+  [[nodiscard]] std::string text(const std::string& object, const std::string& name) const;
+  /// The names in a group, in alphabetical order.
+  [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
   [[nodiscard]] std::vector<std::size_t> shape(const std::string& dataset) const;
   [[nodiscard]] std::vector<float> floats(const std::string& dataset) const;
   [[nodiscard]] std::vector<std::int64_t> integers(const std::string& dataset) const;

@@ -169,6 +169,7 @@ json frames_json(const std::filesystem::path& folder, RunText& run, Highlights& 
   data["air"] = air_of(source);
   data["dust_map"] = look_for_dust(source, view, box.is_thin(), run.dust, highlights);
   data["release_map"] = release_map_of(source);
+  data["sensor_maps"] = sensor_maps_of(source);
   const double load = number_at(object_at(run.summary, "mass_kg"), "emitted").value_or(0.0);
   if (!view.is_empty()) {
     highlights.partings =

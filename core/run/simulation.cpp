@@ -34,7 +34,10 @@ particles::DemOptions dem_options(const scenario::Setup& setup, const Models& mo
   if (setup.fluid && !coupling::takes_over_buoyancy(models.fluid_forces)) {
     options.fluid_density = setup.fluid->density;
   }
-  for (const auto& sensor : models.sensors) options.records_wall_loads |= sensor->wants_walls();
+  for (const auto& sensor : models.sensors) {
+    options.records_wall_sliding |= sensor->wants_sliding();
+    options.records_wall_loads |= sensor->wants_walls() || sensor->wants_sliding();
+  }
   return options;
 }
 

@@ -101,6 +101,25 @@ TEST_CASE("blocks that slide down a liner shall wear it by Archard's law within 
   CHECK(figure(summary, "liner", "normal_force") == approx(3 * press).epsilon(0.01));
 }
 
+TEST_CASE("wear shall not depend on how long the fluid step is") {
+  const auto worn = [](const std::string& fluid_step) {
+    const TemporaryFolder folder;
+    const fs::path scenario = folder / "slide.yaml";
+    std::ofstream(scenario) << k_slide;
+    const fs::path out = folder / "out";
+    // Let fall from 20 mm, so that the blocks bounce before they slide.
+    const auto run =
+        engine({"run", scenario, "-o", out, "--quiet", "--set", "time.end=0.3 s", "--set",
+                "time.fluid_step=" + fluid_step, "--set", "time.dem_step=20 us", "--set",
+                "time.output_every=0.3 s", "--set", "sensors.liner.walls=[bottom]", "--set",
+                "emitters.blocks.positions=[[50, 200, 50 mm]]"});
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    return figure(read_file(out / "summary.json"), "liner", "volume");
+  };
+  CHECK(worn("10 ms") == approx(worn("1 ms")).epsilon(1e-6));
+}
+
 TEST_CASE("the forces on blocks that slide shall have the shares of a slope with friction") {
   const TemporaryFolder folder;
   const std::string summary = slide(folder);

@@ -1,9 +1,10 @@
 'use strict';
-// A canvas true to scale over a part of the x-z plane, with axes in the unit of places. `paint(pen)` draws inside.
+// A canvas true to scale over a part of the x-z plane, or of the one of `scene.axes`, with axes in the unit of places. `paint(pen)` draws inside.
 Dust.Picture = class {
   constructor(parent, label, paint, scene = Dust.data) {
     this.paint = paint;
     this.scene = scene;
+    this.axis_names = scene.axes || ['x', 'z'];
     this.whole = scene.view;
     this.view = [...this.whole];
     this.canvas = Dust.el('canvas', {role: 'img', 'aria-label': label});
@@ -65,7 +66,8 @@ Dust.Picture = class {
       if (at < left + inner - 48) pen.fillText(Dust.number(x), at, top + height + 7);
     }
     pen.textAlign = 'right';
-    pen.fillText('x, ' + unit, left + inner, top + height + 7);
+    const [right, up] = this.axis_names;
+    pen.fillText(`${right}, ${unit}`, left + inner, top + height + 7);
     pen.textBaseline = 'middle';
     for (const z of Dust.ticks(z0 / factor, z1 / factor, height / 60)) {
       const at = this.z(z * factor);
@@ -73,7 +75,7 @@ Dust.Picture = class {
       if (at > top + 24) pen.fillText(Dust.number(z), left - 8, Math.min(at, top + height - 5));
     }
     pen.textBaseline = 'top';
-    pen.fillText('z, ' + unit, left - 8, top);
+    pen.fillText(`${up}, ${unit}`, left - 8, top);
   }
   bodies(pen) {
     pen.fillStyle = Dust.colour('body');
@@ -130,13 +132,13 @@ Dust.Picture = class {
     const read = (x, z) => {
       const i = Math.floor((x - grid.x0) / grid.dx), j = Math.floor((z - grid.z0) / grid.dz);
       const here = i >= 0 && j >= 0 && i < grid.nx && j < grid.nz ? value(j * grid.nx + i) : null;
-      return here === null ? '' : `${Dust.place_xz({x, z})}: ${Dust.number(here, 2)}\u202f${unit}`;
+      return here === null ? '' : `${this.axis_names[0]}\u202f${Dust.place_number(x)}, ${this.axis_names[1]}\u202f${Dust.place_text(z)}: ${Dust.number(here, 2)}\u202f${unit}`;
     };
     const places = Dust.places, place = (first, step) => (n) => +((first + (n + 0.5) * step) / places.factor).toPrecision(6);
     const x = place(grid.x0, grid.dx), z = place(grid.z0, grid.dz);
     this.tell(read, () => {
       const cells = Array.from({length: grid.nx * grid.nz}, (_, k) => k).filter((k) => value(k) !== null);
-      return [[`x, ${places.unit}`, `z, ${places.unit}`, `${name}, ${unit}`],
+      return [[...this.axis_names.map((axis) => `${axis}, ${places.unit}`), `${name}, ${unit}`],
         [cells.map((k) => x(k % grid.nx)), cells.map((k) => z(Math.floor(k / grid.nx))), cells.map((k) => +value(k).toPrecision(3))]];
     });
   }

@@ -3,6 +3,7 @@
 (() => {
   Dust.draw_extraction();
   Dust.draw_liberation();
+  Dust.draw_maps();
   if (Dust.draw_setting) Dust.draw_setting();
   const header = document.querySelector('main > header');
   const links = [...document.querySelectorAll('main > section[id]:not([hidden])')].flatMap((section) => {

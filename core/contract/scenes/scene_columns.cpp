@@ -11,7 +11,8 @@ SceneColumns::SceneColumns(const SyntheticScene& scene, const sdk::Sensor& senso
   show_domain(scene);
   show_particles(scene);
   if (sensor.wants_contacts()) show_contacts(scene);
-  if (sensor.wants_walls()) show_walls(scene);
+  if (sensor.wants_walls() || sensor.wants_sliding()) show_walls(scene);
+  if (sensor.wants_sliding()) show_slidings(scene);
   show_fluid(scene);
   if (sensor.wants_face_fluxes() && !scene.pressure.empty()) show_faces(scene);
 }
@@ -124,8 +125,21 @@ void SceneColumns::show_walls(const SyntheticScene& scene) {
     impact.normal_energy *= energy;
     impact.tangential_energy *= energy;
   }
-  view_.walls = {walls_.name,  walls_.group, walls_.force,    walls_.torque,
-                 walls_.power, walls_.mass,  walls_.contacts, impacts_};
+  view_.walls = {walls_.name,     walls_.group, walls_.force,
+                 walls_.torque,   walls_.power, walls_.mass,
+                 walls_.contacts, impacts_,     {}};
+}
+
+void SceneColumns::show_slidings(const SyntheticScene& scene) {
+  const double energy = scene.units.of(sdk::dimension::energy);
+  slidings_ = scene.slidings;
+  for (sdk::WallSliding& s : slidings_) {
+    s.place = scene.units.length * s.place;
+    s.impulse *= scene.units.of(sdk::dimension::force) * scene.units.time;
+    s.sliding *= energy;
+    s.friction *= energy;
+  }
+  view_.walls.slidings = slidings_;
 }
 
 void SceneColumns::show_fluid(const SyntheticScene& scene) {

@@ -35,6 +35,7 @@ class SceneColumns {
   void show_particles(const SyntheticScene& scene);
   void show_contacts(const SyntheticScene& scene);
   void show_walls(const SyntheticScene& scene);
+  void show_slidings(const SyntheticScene& scene);
   void show_fluid(const SyntheticScene& scene);
   void show_faces(const SyntheticScene& scene);
 
@@ -45,6 +46,7 @@ class SceneColumns {
   std::vector<double> contact_columns_[10];
   WallColumns walls_;
   std::vector<sdk::WallImpact> impacts_;
+  std::vector<sdk::WallSliding> slidings_;
   std::vector<float> pressure_;
   std::vector<float> velocity_[3];
   Faces faces_[3];

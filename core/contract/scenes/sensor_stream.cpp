@@ -93,6 +93,7 @@ void SensorStream::blow(double time) {
 /// Riders press each other and the belt, more and more of them as time swings.
 void SensorStream::touch(double time) {
   scene_.contacts.clear();
+  scene_.slidings.clear();
   const auto last = static_cast<std::int32_t>(scene_.grains.size());
   const int pairs = 20 + static_cast<int>(15 * std::sin(200 * time));
   for (std::int32_t i = last - 60; i < last - 60 + pairs; ++i) {
@@ -101,6 +102,11 @@ void SensorStream::touch(double time) {
     scene_.contacts.push_back({i, i + 1, (-force / norm(branch)) * branch, branch, 1e-9});
     scene_.contacts.push_back({i, -1, {0, 0, force}, {0, 0, -2e-4}, 1e-9, {0.1, 0, 0}});
     scene_.contacts.push_back({i + 1, i + 3, {0, 0, 0}, {0, 0, 2e-4}, -1e-9});
+    const Grain& g = scene_.grains[static_cast<std::size_t>(i)];
+    const double impulse = g.weight * force * scene_.interval;
+    const double sliding = impulse * norm(g.velocity - sdk::Vec3{0.1, 0, 0});
+    scene_.slidings.push_back(
+        {i % 4 == 0 ? 1 : 0, g.now - sdk::Vec3{0, 0, 2e-4}, impulse, sliding, 0.3 * sliding});
   }
 }
 

@@ -56,6 +56,7 @@ struct SyntheticScene {
   std::vector<Contact> contacts;
   std::vector<Wall> walls;
   std::vector<sdk::WallImpact> impacts;
+  std::vector<sdk::WallSliding> slidings;
   int count[3] = {0, 0, 0};
   sdk::Vec3 spacing{0.001, 0.001, 0.001};
   double density = 1.2;

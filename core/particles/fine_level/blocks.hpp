@@ -4,6 +4,7 @@
 #include "dust/sdk/sensor.hpp"
 #include "particles/fine_level/clusters.hpp"
 #include "particles/fine_level/sub_cycled_particle.hpp"
+#include "particles/forces/wall_sliding.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -44,6 +45,7 @@ struct Block {
   double largest_overlap = 0.0;
   std::vector<double> wall_sums;  ///< WallLoads::k_sums per wall, if watched
   std::vector<sdk::WallImpact> wall_impacts;
+  WallSlidings slidings;
   std::vector<BlockWork> work;  ///< by particle, if it is kept
   std::vector<BlockWallWork> wall_work;
 };

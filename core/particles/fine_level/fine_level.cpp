@@ -45,7 +45,9 @@ void FineLevel::count(const FineScene& scene) {
   sub_steps_ += static_cast<std::int64_t>(scene.fine_count()) -
                 static_cast<std::int64_t>(clusters_.sub_cycled().size());
   for (Block& block : blocks_.all()) {
-    if (scene.wall_loads.is_on()) scene.wall_loads.take(block.wall_sums, block.wall_impacts);
+    if (scene.wall_loads.is_on()) {
+      scene.wall_loads.take(block.wall_sums, block.wall_impacts, block.slidings);
+    }
     if (scene.work != nullptr) give_work(scene, block);
     sub_steps_ += block.fine_count << block.level;
     largest_overlap_ = std::max(largest_overlap_, block.largest_overlap);

@@ -27,6 +27,7 @@ class SubCycle {
     const int count = 1 << block_.level;
     sub_step_ = scene_.steps.coarse_step / count;
     for (int m = 0; m < count; ++m) {
+      block_.slidings.begin_step();
       time_ = scene_.time + m * sub_step_;
       slow_fraction_ = 0.5 - static_cast<double>(m) / count;
       is_first_ = m == 0;
@@ -283,6 +284,12 @@ void SubCycle::apply_to_wall(const CandidateContact& c, std::size_t q) {
   add_load(block_.wall_sums.data() + WallLoads::k_sums * wall, i.position, force, torque,
            wall_power(scene_.surface(c.surface), scene_.law(c.law).rolling != nullptr, q, columns_),
            i.weight * duration);
+  if (!scene_.wall_loads.has_sliding()) return;
+  block_.slidings.add(sliding_contact(columns_, q,
+                                      {.particle = c.particle,
+                                       .wall = scene_.surface(c.surface).wall,
+                                       .point = i.position,
+                                       .weighted_time = i.weight * duration}));
 }
 
 }  // namespace

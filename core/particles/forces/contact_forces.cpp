@@ -14,16 +14,20 @@ namespace dust::particles {
 using contact::BatchColumns;
 using contact::k_batch;
 
-void ContactForces::restart(std::size_t tiles, std::size_t walls) {
+void ContactForces::restart(std::size_t tiles, const WallLoads& loads) {
   largest_before_ = largest_overlap();
   tiles_.assign(tiles, {});
-  for (OfTile& t : tiles_) t.wall_sums.assign(WallLoads::k_sums * walls, 0.0);
+  for (OfTile& t : tiles_) {
+    t.wall_sums.assign(WallLoads::k_sums * loads.walls(), 0.0);
+    t.keeps_sliding = loads.has_sliding();
+  }
 }
 
 void ContactForces::evaluate(const ContactScene& scene, Tile range, TileContacts& contacts,
                              double* force) {
   OfTile& tile = tiles_[static_cast<std::size_t>(range.index)];
   tile.contacts = 0;
+  tile.slidings.begin_step();
   tile.energy = scene.energy == nullptr
                     ? nullptr
                     : &scene.energy->tile(static_cast<std::size_t>(range.index));
@@ -127,7 +131,7 @@ double ContactForces::largest_overlap() const {
 }
 
 void ContactForces::give_wall_loads(WallLoads& loads) {
-  for (OfTile& t : tiles_) loads.take(t.wall_sums, t.wall_impacts);
+  for (OfTile& t : tiles_) loads.take(t.wall_sums, t.wall_impacts, t.slidings);
 }
 
 }  // namespace dust::particles

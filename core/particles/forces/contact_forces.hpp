@@ -40,8 +40,8 @@ struct ContactScene {
 /// beside forces: counts, overlaps, loads on walls. Tiles may be worked through at once.
 class ContactForces {
  public:
-  /// New tiles and so many walls whose loads are kept.
-  void restart(std::size_t tiles, std::size_t walls);
+  /// New tiles for the walls whose loads are kept.
+  void restart(std::size_t tiles, const WallLoads& loads);
   /// Adds the forces of all contacts of a tile to `force`, rows of a ForceBuffer.
   void evaluate(const ContactScene& scene, Tile tile, TileContacts& contacts, double* force);
 
@@ -62,7 +62,9 @@ class ContactForces {
     double largest_overlap = 0.0;
     std::vector<double> wall_sums;              ///< WallLoads::k_sums per wall, if kept
     std::vector<sdk::WallImpact> wall_impacts;  ///< in the order of the contacts
-    EnergySums* energy = nullptr;               ///< of the step at hand, if an account is kept
+    bool keeps_sliding = false;
+    WallSlidings slidings;
+    EnergySums* energy = nullptr;  ///< of the step at hand, if an account is kept
   };
   /// One batch of contacts with a surface.
   struct WallBatch;

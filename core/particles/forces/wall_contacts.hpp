@@ -3,6 +3,7 @@
 
 #include "contact/batch_kernels.hpp"
 #include "dust/sdk/vec3.hpp"
+#include "particles/forces/wall_sliding.hpp"
 #include "particles/surfaces.hpp"
 
 #include <cstddef>
@@ -109,6 +110,18 @@ inline double wall_power(const Surface& surface, bool has_couple, std::size_t q,
   const double linear = dot(columns.vectors(B::force_x)[q], columns.vectors(B::separation_x)[q]);
   if (!surface.is_turning || !has_couple) return linear;
   return linear + dot(columns.vectors(B::torque_x)[q], columns.vectors(B::surface_rotation_x)[q]);
+}
+
+/// Contact q as it slides, once the laws have been asked; `at` has the particle's centre for its
+/// point.
+inline SlidingContact sliding_contact(contact::BatchColumns& columns, std::size_t q,
+                                      SlidingContact at) {
+  using B = contact::BatchColumns;
+  at.normal = columns.vectors(B::normal_x)[q];
+  at.point -= columns.column(B::lever_i)[q] * at.normal;
+  at.force = columns.vectors(B::force_x)[q];
+  at.velocity = columns.vectors(B::velocity_x)[q];
+  return at;
 }
 
 }  // namespace dust::particles

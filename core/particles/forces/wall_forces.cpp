@@ -245,6 +245,13 @@ void ContactForces::note_wall_loads(const ContactScene& scene, OfTile& tile, con
     const double weight = scene.particles.weight(row);
     add_load(sums, {p[0], p[1], p[2]}, get(B::force_x), get(B::torque_i_x),
              wall_power(surface, law.rolling != nullptr, q, columns), weight * scene.step);
+    if (tile.keeps_sliding) {
+      tile.slidings.add(sliding_contact(columns, q,
+                                        {.particle = rows[q],
+                                         .wall = surface.wall,
+                                         .point = {p[0], p[1], p[2]},
+                                         .weighted_time = weight * scene.step}));
+    }
     if (!is_new[q]) continue;
     tile.wall_impacts.push_back(impact_of(surface.wall, 1.0 / scene.particles.inverse_mass(row),
                                           weight, get(B::velocity_x), get(B::normal_x)));

@@ -8,7 +8,8 @@
 
 namespace dust::particles {
 
-void WallLoads::begin(const std::vector<Surface>& surfaces, std::size_t walls) {
+void WallLoads::begin(const std::vector<Surface>& surfaces, std::size_t walls, bool has_sliding) {
+  has_sliding_ = has_sliding;
   name_.resize(walls);
   group_.resize(walls);
   for (const Surface& s : surfaces) {
@@ -24,11 +25,13 @@ void WallLoads::begin(const std::vector<Surface>& surfaces, std::size_t walls) {
   count_.assign(walls, 0);
 }
 
-void WallLoads::take(std::vector<double>& sums, std::vector<sdk::WallImpact>& impacts) {
+void WallLoads::take(std::vector<double>& sums, std::vector<sdk::WallImpact>& impacts,
+                     WallSlidings& slidings) {
   for (std::size_t q = 0; q < sums.size(); ++q) sums_[q] += sums[q];
   std::fill(sums.begin(), sums.end(), 0.0);
   open_impacts_.insert(open_impacts_.end(), impacts.begin(), impacts.end());
   impacts.clear();
+  slidings.take(open_slidings_);
 }
 
 void WallLoads::close(double interval) {
@@ -42,10 +45,12 @@ void WallLoads::close(double interval) {
   std::fill(sums_.begin(), sums_.end(), 0.0);
   impacts_.swap(open_impacts_);
   open_impacts_.clear();
+  slidings_.swap(open_slidings_);
+  open_slidings_.clear();
 }
 
 sdk::WallColumns WallLoads::columns() const {
-  return {name_, group_, force_, torque_, power_, mass_, count_, impacts_};
+  return {name_, group_, force_, torque_, power_, mass_, count_, impacts_, slidings_};
 }
 
 void WallLoads::note_contacts(const ContactScene& scene, const InnerList& lists) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dust/sdk/sensor.hpp"
+#include "particles/forces/wall_sliding.hpp"
 #include "particles/surfaces.hpp"
 
 #include <cstdint>
@@ -20,12 +21,14 @@ class WallLoads {
   /// Sums of one wall: impulse [N s], angular impulse about the origin [N m s], work [J].
   static constexpr std::size_t k_sums = 7;
 
-  void begin(const std::vector<Surface>& surfaces, std::size_t walls);
+  void begin(const std::vector<Surface>& surfaces, std::size_t walls, bool has_sliding = false);
   [[nodiscard]] bool is_on() const { return !name_.empty(); }
   [[nodiscard]] std::size_t walls() const { return name_.size(); }
+  [[nodiscard]] bool has_sliding() const { return has_sliding_; }
 
-  /// Adds sums (k_sums per wall) and impacts, and empties both.
-  void take(std::vector<double>& sums, std::vector<sdk::WallImpact>& impacts);
+  /// Adds sums (k_sums per wall), impacts and slidings, and empties all.
+  void take(std::vector<double>& sums, std::vector<sdk::WallImpact>& impacts,
+            WallSlidings& slidings);
   /// Ends the interval [s]: what was added becomes the means of `columns`.
   void close(double interval);
   /// What touches walls now.
@@ -40,6 +43,8 @@ class WallLoads {
   std::vector<double> power_, mass_;
   std::vector<std::int64_t> count_;
   std::vector<sdk::WallImpact> impacts_;
+  bool has_sliding_ = false;
+  std::vector<sdk::WallSliding> open_slidings_, slidings_;
 };
 
 /// Adds to the sums of one wall what the grain's side of a contact says: force [N] and torque [N m]

@@ -8,7 +8,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace dust::preflight {
 namespace {
@@ -29,9 +31,11 @@ class Surfaces {
            const scenario::SensorSpec& spec, scenario::Diagnostics& diagnostics)
       : setup_(setup), bodies_(bodies), spec_(spec), diagnostics_(diagnostics) {}
 
-  void check(const sdk::SurfacesWanted::Box& box) const {
-    if (has_surface(box.min, box.max)) return;
-    warn(": no wall has a part in the box from " + base::place_text(box.min) + " to " +
+  /// `names`: of the walls that are meant; empty: any.
+  void check(const sdk::SurfacesWanted::Box& box, std::span<const std::string> names) const {
+    if (has_surface(box.min, box.max, names)) return;
+    warn((names.empty() ? std::string(": no wall") : ": none of its walls") +
+         " has a part in the box from " + base::place_text(box.min) + " to " +
          base::place_text(box.max) +
          ": what it tells of walls there is 0; move it round the surface that is meant");
   }
@@ -61,9 +65,13 @@ class Surfaces {
     diagnostics_.warning(spec_.model.where, spec_.model.path + text);
   }
 
-  [[nodiscard]] bool has_surface(Vec3 low, Vec3 high) const {
+  [[nodiscard]] bool has_surface(Vec3 low, Vec3 high, std::span<const std::string> names) const {
+    const auto is_meant = [&](std::string_view name) {
+      return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+    };
     for (std::size_t side = 0; side < 6; ++side) {
       if (setup_.domain.sides[side].grains != scenario::GrainSide::wall) continue;
+      if (!is_meant(scenario::k_side_names[side])) continue;
       const int d = static_cast<int>(side / 2);
       const double at = side % 2 == 0 ? setup_.domain.min[d] : setup_.domain.max[d];
       if (low[d] <= at && at <= high[d]) return true;
@@ -71,6 +79,7 @@ class Surfaces {
     const Vec3 half = 0.5 * (high - low);
     const Vec3 middle = low + half;
     return std::any_of(bodies_.begin(), bodies_.end(), [&](const bodies::Body& body) {
+      if (!is_meant(body.name) && (body.group.empty() || !is_meant(body.group))) return false;
       return std::any_of(k_ends.begin(), k_ends.end(), [&](double share) {
         return bodies::may_meet_box(body, body.placement(share * setup_.time.end), middle, half,
                                     k_finest_part * norm(half));
@@ -124,7 +133,7 @@ void check_sensor_surfaces(const scenario::Setup& setup, const bodies::BodySet& 
                            scenario::Diagnostics& diagnostics) {
   const auto wanted = sensor.wanted_surfaces();
   const Surfaces surfaces(setup, bodies, spec, diagnostics);
-  if (wanted.wall_in) surfaces.check(*wanted.wall_in);
+  if (wanted.wall_in) surfaces.check(*wanted.wall_in, wanted.walls);
   if (wanted.stretch) surfaces.check(*wanted.stretch);
 }
 

@@ -101,6 +101,12 @@ struct DustOrigin {
 /// "most" [kg per cm2], "kinds": [{"title", "kg", "data"}]}; null where none did.
 [[nodiscard]] nlohmann::json release_map_of(const H5Source& source);
 
+/// The fields that sensors keep on grids of their own, as the last frame has them: [{"sensor",
+/// "name", "unit", "along", "axes", "nx", "nz", "x0", "z0", "dx", "dz" [m], "decades", "most",
+/// "data"}]. Seen along the axis that shows most of what is not 0, the largest on each line of
+/// sight, logarithmic in 8 bits. Fields of nothing but 0 are left out.
+[[nodiscard]] nlohmann::json sensor_maps_of(const H5Source& source);
+
 /// A map for the page, logarithmic in 8 bits; null without dust.
 [[nodiscard]] nlohmann::json dust_map_json(const DustMap& map, const View& view);
 

@@ -4,6 +4,7 @@
 #include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
+#include <dust/sdk/wall_selection.hpp>
 
 #include <algorithm>
 #include <array>
@@ -28,9 +29,7 @@ class WallLoad final : public sdk::Sensor {
   };
   static sdk::ParameterSchema schema() {
     sdk::SchemaOf<Parameters> s;
-    s.texts(&Parameters::walls, "walls",
-            "Bodies, groups of bodies and sides of the domain whose loads are added up.")
-        .refers_to(sdk::Refers::wall);
+    sdk::declare_walls(s, "whose loads are added up");
     s.vector(&Parameters::about, "about", sdk::dimension::length,
              "Point the torque is taken about.")
         .symbol("p")
@@ -65,7 +64,9 @@ class WallLoad final : public sdk::Sensor {
   }
 
   explicit WallLoad(const Parameters& p)
-      : p_(p), bins_{p.least_energy, p.largest_energy, static_cast<std::size_t>(p.bins)} {
+      : p_(p),
+        walls_(p.walls),
+        bins_{p.least_energy, p.largest_energy, static_cast<std::size_t>(p.bins)} {
     if (!(p.largest_energy > p.least_energy)) {
       throw sdk::ParameterError("largest_energy is not above least_energy");
     }
@@ -80,13 +81,9 @@ class WallLoad final : public sdk::Sensor {
     values_.fill(0.0);
     sdk::Vec3 force;
     sdk::Vec3 torque;
-    std::vector<bool> is_chosen(w.name.size());
+    walls_.look(w);
     for (std::size_t n = 0; n < w.name.size(); ++n) {
-      const auto asked = [&](const std::string& name) {
-        return !name.empty() && std::find(p_.walls.begin(), p_.walls.end(), name) != p_.walls.end();
-      };
-      is_chosen[n] = asked(w.name[n]) || asked(w.group[n]);
-      if (!is_chosen[n]) continue;
+      if (!walls_.holds(n)) continue;
       force += w.force[n];
       torque += w.torque[n];
       values_[k_power] += w.power[n];
@@ -104,7 +101,7 @@ class WallLoad final : public sdk::Sensor {
     means_.add(values_, world.interval);
     for (const sdk::WallImpact& i : w.impacts) {
       const double energy = i.normal_energy + i.tangential_energy;
-      if (!is_chosen[static_cast<std::size_t>(i.wall)] || energy < p_.least_energy) continue;
+      if (!walls_.holds(i.wall) || energy < p_.least_energy) continue;
       impacts_ += i.weight;
       impact_squares_ += i.weight * i.weight;
       impact_energy_[0] += i.weight * i.normal_energy;
@@ -214,6 +211,7 @@ class WallLoad final : public sdk::Sensor {
       sdk::Quantity::power,  sdk::Quantity::mass,   sdk::Quantity::number};
 
   Parameters p_;
+  sdk::WallSelection walls_;
   formula::Bins bins_;
   std::array<double, k_columns> values_{};   ///< at the last sample
   double impacts_ = 0.0;                     ///< [-] real grains

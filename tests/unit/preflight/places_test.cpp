@@ -559,11 +559,23 @@ TEST_CASE("steps of grains too short for any run shall be refused") {
 }
 
 TEST_CASE("wear of no wall shall be warned of") {
-  const auto warned = [](const std::string& min, const std::string& max) {
-    return is_warned({{"sensors.liner", "{model: wear, min: " + min + ", max: " + max +
+  const auto warned_by = [](const std::string& min, const std::string& max,
+                            const std::string& walls, const std::string& text) {
+    return is_warned({{"sensors.liner", "{model: wear, min: " + min + ", max: " + max + walls +
                                             ", cell: 5 mm, coefficient: 1e-4, hardness: 1 GPa}"}},
-                     "sensors.liner: no wall has a part in the box");
+                     "sensors.liner: " + text);
   };
+  const auto warned = [&](const std::string& min, const std::string& max) {
+    return warned_by(min, max, "", "no wall has a part in the box");
+  };
+  const auto named = [&](const std::string& walls) {
+    return warned_by("[20, 0, 25 mm]", "[60, 40, 35 mm]", ", walls: [" + walls + "]",
+                     "none of its walls has a part in the box");
+  };
+  CHECK_FALSE(named("shelf"));
+  CHECK_FALSE(named("front"));
+  CHECK_FALSE(named("bottom, shelf"));
+  CHECK(named("bottom"));
   CHECK(warned("[20, 10, 100 mm]", "[60, 40, 120 mm]"));
   CHECK(warned("[20, 10, 22 mm]", "[60, 40, 28 mm]"));  // inside the shelf
   CHECK_FALSE(warned("[20, 10, 25 mm]", "[60, 40, 35 mm]"));

@@ -250,6 +250,7 @@ struct Sensor final : Trial<sdk::Sensor> {
     sink.field("one", "1", {}, std::span(&time, 1));
   }
   bool wants_walls() const override { return true; }
+  bool wants_sliding() const override { return true; }
   void save(sdk::ArchiveWriter& a) const override { a.number("time", time); }
   void load(sdk::ArchiveReader& a) override { time = a.number("time"); }
   double time = 0.0;
@@ -518,6 +519,7 @@ TEST_CASE("a guarded emitter, motion and sensor shall answer as themselves") {
   CHECK(sensor->wants_contacts());
   CHECK(sensor->wants_face_fluxes());
   CHECK(sensor->wants_walls());
+  CHECK(sensor->wants_sliding());
   CHECK(
       said([&] { guard<Sensor>(Deed::throws)->observe(world); }) ==
       "sensor/trial (/x/trial.so) throws in observe: out of table; expected: a look at the world");

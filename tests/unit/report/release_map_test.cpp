@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where dust comes off and where it is in the air, seen from the side and in three dimensions, from
-// a results.h5 written by hand.
+// Where dust comes off and where it is in the air, seen from the side and in three dimensions, and
+// what sensors keep by place, from a results.h5 written by hand.
 #include "fake_run.hpp"
 #include "report/pictures/pictures.hpp"
 #include "report/space/space.hpp"
@@ -39,8 +39,29 @@ class Results {
   void frame(const std::string& name) const {
     H5Gclose(H5Gcreate2(file_, ("/fluid/" + name).c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   }
-  void field(const std::string& path, const std::vector<float>& values) const {
-    const hid_t space = H5Screate_simple(3, k_shape.data(), nullptr);
+  void group(const std::string& path) const {
+    H5Gclose(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  }
+  /// A field of a sensor on a grid of its own: (nz, ny, nx) cells of 50 mm from `origin` on.
+  void sensor_field(const std::string& path, std::array<hsize_t, 3> shape,
+                    const std::vector<double>& origin, const std::vector<float>& values) const {
+    field(path, values, shape);
+    const hid_t set = H5Dopen2(file_, path.c_str(), H5P_DEFAULT);
+    put(set, "origin", origin);
+    put(set, "spacing", {0.05, 0.05, 0.05});
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, 4);
+    const hid_t space = H5Screate(H5S_SCALAR);
+    const hid_t units = H5Acreate2(set, "units", type, space, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(units, type, "m/s");
+    H5Aclose(units);
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Dclose(set);
+  }
+  void field(const std::string& path, const std::vector<float>& values,
+             std::array<hsize_t, 3> shape = k_shape) const {
+    const hid_t space = H5Screate_simple(3, shape.data(), nullptr);
     const hid_t set = H5Dcreate2(file_, path.c_str(), H5T_NATIVE_FLOAT, space, H5P_DEFAULT,
                                  H5P_DEFAULT, H5P_DEFAULT);
     H5Dwrite(set, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
@@ -107,6 +128,38 @@ TEST_CASE("a run whose grains carry no dust shall have no map of where it comes 
     results.frame("000000");
   }
   CHECK(report::release_map_of(report::H5Source(folder.path() / "results.h5")).is_null());
+}
+
+TEST_CASE("what a sensor keeps by place shall be seen along the axis that shows most of it") {
+  const RunFolder folder;
+  {
+    const Results results(folder);
+    for (const char* name : {"/sensors", "/sensors/000000", "/sensors/000001"}) results.group(name);
+    for (const char* name : {"/sensors/000001/floor", "/sensors/000001/idle"}) results.group(name);
+    // A floor of 3 x 2 cells in two layers: from above six places are seen, from the side five.
+    results.sensor_field("/sensors/000001/floor/depth_rate", {2, 2, 3}, {1.0, -0.05, 0.0},
+                         {1e-8F, 1e-10F, 1e-11F, 1e-12F, 0, 1e-8F, 0, 0, 0, 0, 1e-7F, 5e-10F});
+    results.sensor_field("/sensors/000001/idle/depth_rate", {2, 2, 3}, {0, 0, 0},
+                         std::vector<float>(12, 0.0F));
+  }
+  const auto maps = report::sensor_maps_of(report::H5Source(folder.path() / "results.h5"));
+  REQUIRE(maps.size() == 1);
+  const auto& map = maps[0];
+  CHECK(map["sensor"] == "floor");
+  CHECK(map["name"] == "depth_rate");
+  CHECK(map["unit"] == "m/s");
+  CHECK(map["along"] == "z");
+  CHECK(map["axes"] == nlohmann::json{"x", "y"});
+  CHECK(map["nx"] == 3);
+  CHECK(map["nz"] == 2);
+  CHECK(map["x0"] == 1.0);
+  CHECK(map["z0"] == -0.05);
+  CHECK(map["most"].get<double>() == test::approx(1e-7).epsilon(1e-6));
+  const std::string bytes = test::unpacked(map["data"].get<std::string>());
+  std::vector<int> codes;
+  for (const char byte : bytes) codes.push_back(static_cast<unsigned char>(byte));
+  // Of four decades: the most 254, a tenth of it three quarters up; less than all four the least.
+  CHECK(codes == std::vector<int>{191, 64, 1, 1, 254, 191});
 }
 
 TEST_CASE("dust in the air shall come back from the page in kg/m3, and where it came off") {

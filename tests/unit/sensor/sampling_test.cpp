@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <vector>
 
 using namespace dust;
@@ -63,6 +64,21 @@ TEST_CASE("batch means shall give the exact mean and the error of the scatter") 
   // Half of all series look as if they remembered, by chance, and have a wider error: by 11 % in
   // the mean of 31 batches.
   CHECK(mean_error == test::approx(1.11 / std::sqrt(k_samples)).epsilon(0.05));
+}
+
+TEST_CASE("columns that batch means get later shall have been 0 until then") {
+  sdk::BatchMeans whole(2);
+  sdk::BatchMeans widened(1);
+  for (int i = 0; i < 1000; ++i) {
+    const double values[] = {1.0 + i % 7, i < 300 ? 0.0 : 2.0 + i % 3};
+    if (i == 300) widened.widen(2);
+    whole.add(values, 0.001);
+    widened.add(std::span(values, widened.columns()), 0.001);
+  }
+  for (const std::size_t c : {0u, 1u}) {
+    CHECK(widened.mean(c) == whole.mean(c));
+    CHECK(widened.error(c) == whole.error(c));
+  }
 }
 
 TEST_CASE("batch means shall see that neighbouring samples remember each other") {

@@ -125,6 +125,93 @@ TEST_CASE("a belt that takes a grain along shall spend what the grain gains and 
   CHECK(walls.force[0].x == approx(-mu * rig.mass() * k_g).epsilon(2e-3));
 }
 
+TEST_CASE("an impact that slides shall tell its whole work, however seldom it is looked at") {
+  // J = m (1 + e) v_n; the slip falls by 7/2 mu J(t) / m, so that the sum of F_n v_t dt is
+  // J v_t - 7/4 mu J^2 / m.
+  // So elastic that the damper hardly pulls as the two part: pulls wear nothing.
+  constexpr double e = 0.95;
+  constexpr double mu = 0.05;
+  constexpr double weight = 3.0;
+  const auto slide = [&](const std::vector<double>& diameters) {
+    WallRig rig(e, mu, k_diameter);
+    rig.diameters = diameters;
+    rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}});
+    rig.options.records_wall_loads = rig.options.records_wall_sliding = true;
+    auto dem = rig.make();
+    dem->insert(std::vector<NewGrain>{{.position = {0.002, 0.001, 5.1e-4},
+                                       .velocity = {0.8, 0, -1.0},
+                                       .diameter = k_diameter,
+                                       .weight = weight}});
+    Stepper stepper(*dem);
+    while (stepper.time() < 2e-3) stepper.step();
+    // Looked at once, long after the impact of some 10 us.
+    const auto walls = dem->close_wall_loads(stepper.time(), stepper.time());
+    REQUIRE(walls.slidings.size() == 1);
+    const auto s = walls.slidings[0];
+    const double m = weight * rig.mass();
+    const double impulse = m * (1.0 + e);
+    CHECK(s.wall == 0);
+    CHECK(s.impulse == approx(impulse).epsilon(0.01));
+    CHECK(s.sliding == approx(impulse * 0.8 - 1.75 * mu * impulse * impulse / m).epsilon(0.02));
+    CHECK(s.friction == approx(mu * s.sliding).epsilon(0.02));
+    CHECK(norm(s.place - Vec3{0.002, 0.001, 0.0}) < 5e-5);
+    CHECK(dem->close_wall_loads(1.0, stepper.time()).slidings.empty());
+  };
+  slide({k_diameter});
+  slide({k_diameter, 8.0 * k_diameter});  // sub-cycled
+}
+
+TEST_CASE("grains that slide on a belt shall tell their weight times the way they slide") {
+  constexpr double mu = 0.3;
+  constexpr double speed = 1.0;
+  WallRig rig(0.3, mu, k_diameter);
+  rig.setup.gravity = {0, 0, -k_g};
+  rig.body("conveyor",
+           {{"head", Vec3{0.2, 0, -0.01}}, {"tail", Vec3{-0.2, 0, -0.01}}, {"radius", 0.01}},
+           rig.motion("belt", {{"speed", speed}}));
+  rig.options.records_wall_loads = rig.options.records_wall_sliding = true;
+  auto dem = rig.make();
+  const double rest = 0.5 * k_diameter - rig.resting_overlap();
+  dem->insert(std::vector<NewGrain>{{.position = {0, 0, rest}, .diameter = k_diameter},
+                                    {.position = {-0.1, 0, rest}, .diameter = k_diameter}});
+  Stepper stepper(*dem);
+  while (stepper.time() < 0.06) stepper.step();
+  const double time = stepper.time();
+  const auto walls = dem->close_wall_loads(time, time);
+  // One per grain and list of neighbours, not per step.
+  REQUIRE(walls.slidings.size() >= 2);
+  CHECK(walls.slidings.size() < 100);
+  double impulse = 0.0, way = 0.0, friction = 0.0, moment = 0.0;
+  for (const auto& s : walls.slidings) {
+    impulse += s.impulse;
+    way += s.sliding;
+    friction += s.friction;
+    moment += s.impulse * s.place.x;
+  }
+  // Slip U - 7/2 mu g t.
+  const double mg = rig.mass() * k_g;
+  const double sliding = 2.0 * mg * (speed * time - 1.75 * mu * k_g * time * time);
+  CHECK(impulse == approx(2.0 * mg * time).epsilon(1e-3));
+  CHECK(way == approx(sliding).epsilon(3e-3));
+  CHECK(friction == approx(mu * sliding).epsilon(3e-3));
+  // The mean over the way of mu g t^2 / 2, one grain 100 mm behind the other.
+  CHECK(moment / impulse == approx(mu * k_g * time * time / 6 - 0.05).epsilon(0.01));
+}
+
+TEST_CASE("slidings shall be kept only where they are asked for") {
+  WallRig rig(0.5, 0.3, k_diameter);
+  rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}});
+  rig.options.records_wall_loads = true;
+  auto dem = rig.make();
+  dem->insert(std::vector<NewGrain>{
+      {.position = {0, 0, 5.1e-4}, .velocity = {0.8, 0, -1.0}, .diameter = k_diameter}});
+  Stepper stepper(*dem);
+  while (stepper.time() < 1e-3) stepper.step();
+  const auto walls = dem->close_wall_loads(stepper.time(), stepper.time());
+  CHECK(walls.impacts.size() == 1);
+  CHECK(walls.slidings.empty());
+}
+
 TEST_CASE("a grain in a corner of a vessel shall count once for the vessel") {
   WallRig rig(0.3, 0.4, k_diameter);
   rig.setup.gravity = {-4, -3, -8};

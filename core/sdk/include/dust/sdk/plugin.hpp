@@ -20,7 +20,7 @@
 namespace dust::sdk {
 
 /// Raised with every change of a struct or virtual function in this folder.
-inline constexpr std::uint32_t k_interface_version = 13;
+inline constexpr std::uint32_t k_interface_version = 14;
 
 /// What both sides of the plugin boundary must agree on, compared before any virtual call.
 struct Handshake {

@@ -177,6 +177,17 @@ class BatchMeans {
  public:
   explicit BatchMeans(std::size_t columns = 0) : columns_(columns), open_(columns, 0.0) {}
   [[nodiscard]] std::size_t columns() const { return columns_; }
+  /// More columns, which were 0 until now.
+  void widen(std::size_t columns) {
+    std::vector<double> wider(columns * durations_.size(), 0.0);
+    for (std::size_t b = 0; b < durations_.size(); ++b) {
+      std::copy_n(closed_.begin() + static_cast<std::ptrdiff_t>(b * columns_), columns_,
+                  wider.begin() + static_cast<std::ptrdiff_t>(b * columns));
+    }
+    closed_ = std::move(wider);
+    open_.resize(columns, 0.0);
+    columns_ = columns;
+  }
 
   /// One sample: `values` held for `duration` [s].
   void add(std::span<const double> values, double duration) {

@@ -79,6 +79,16 @@ struct WallImpact {
   double weight = 1.0;             ///< [-] real grains
 };
 
+/// What a grain has done to a wall while the two touched: sums over every step of the DEM since the
+/// last sample, with the grain's weight. Steps in which it was only held count nothing.
+struct WallSliding {
+  std::int32_t wall = 0;  ///< index into the columns
+  Vec3 place;             ///< [m] of the contact: its mean, by normal impulse
+  double impulse = 0.0;   ///< [N s] of the normal force
+  double sliding = 0.0;   ///< [J] normal force times the way that the grain's surface slid
+  double friction = 0.0;  ///< [J] work of the force along the wall on that way
+};
+
 /// Walls: sides of the domain, then bodies. Means are over the interval since the last sample.
 /// Empty unless a sensor of the run asks for them (Sensor::wants_walls).
 struct WallColumns {
@@ -90,6 +100,8 @@ struct WallColumns {
   std::span<const double> mass;            ///< [kg] of the grains in touch now, weighted
   std::span<const std::int64_t> contacts;  ///< computed grains in touch now
   std::span<const WallImpact> impacts;     ///< since the last sample
+  /// The same; empty unless a sensor of the run asks for them (Sensor::wants_sliding).
+  std::span<const WallSliding> slidings;
 };
 
 /// What a sensor may look at; valid during the call only.
@@ -224,9 +236,10 @@ struct SurfacesWanted {
     Vec3 along;          ///< [-] of length 1: the way that the surface runs, if it does
     double reach = 0.0;  ///< [m] how far off the surface may be
   };
-  std::optional<Box> wall_in;      ///< some wall has a part in it
-  std::optional<Stretch> stretch;  ///< of a belt, or of what else a load lies on
-  std::string_view rubbed_side;    ///< a side of the domain that the fluid goes along; "": none
+  std::optional<Box> wall_in;          ///< some wall has a part in it
+  std::span<const std::string> walls;  ///< of these names or groups alone; empty: any
+  std::optional<Stretch> stretch;      ///< of a belt, or of what else a load lies on
+  std::string_view rubbed_side;        ///< a side of the domain that the fluid goes along; "": none
 };
 
 /// Observes the world once per fluid step (grains-only runs: once per sampling interval), on const
@@ -255,6 +268,9 @@ class Sensor : public Model {
   virtual void fields(FieldSink&) const {}
   /// Whether it reads WorldView::walls; these are kept only when a sensor does.
   [[nodiscard]] virtual bool wants_walls() const { return false; }
+  /// Whether it reads WallColumns::slidings, which are kept only when a sensor does; the other
+  /// columns of walls then are, too.
+  [[nodiscard]] virtual bool wants_sliding() const { return false; }
   /// Whether it reads FluidColumns::faces; these are copied only when a sensor does.
   [[nodiscard]] virtual bool wants_face_fluxes() const { return false; }
   /// Whether it has nothing to tell where there is no fluid.
