@@ -2,8 +2,10 @@
 #pragma once
 
 #include "registry/registry.hpp"
+#include "scenario/diagnostics.hpp"
 #include "setup/setup.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,13 @@ struct GapNumbers {
 struct TouchNumbers {
   std::string first, second;
   sdk::Vec3 place;  ///< [m] where that was found
+  /// Where one of them is a belt that runs along the other there.
+  struct Crossing {
+    std::string belt, other;
+    double speed = 0.0;    ///< [m/s]
+    scenario::Mark where;  ///< of the other
+  };
+  std::optional<Crossing> crossing = std::nullopt;
 };
 
 /// What is known of a body drawn elsewhere.
@@ -47,5 +56,8 @@ struct BodySurvey {
 /// Looks for gaps narrower than two cells of the fluid or than the largest grain, and at meshes.
 /// Its work is bounded, whatever the scenario: below a second.
 BodySurvey survey_bodies(const scenario::Setup& setup, const registry::Registry& registry);
+
+/// Warns of bodies that touch or cross a running belt.
+void check_crossings(const BodySurvey& survey, scenario::Diagnostics& diagnostics);
 
 }  // namespace dust::preflight

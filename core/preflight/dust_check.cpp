@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "bodies/placement.hpp"
 #include "fluid/grid.hpp"
+#include "preflight/journey.hpp"
 #include "scenario/text/units.hpp"
 
 #include <algorithm>
@@ -23,6 +24,8 @@ using scenario::EmitterSpec;
 using scenario::Setup;
 using sdk::Vec3;
 
+/// [-] Of the time on bodies: a grain that is so long on a belt rides on it.
+constexpr double k_riding = 0.3;
 /// Cells across the narrowest turn that a grid resolves well.
 constexpr double k_turn_cells = 4.0;
 
@@ -277,6 +280,32 @@ void check_feeds(const Setup& setup, const DustSetup& dust, bool is_branch,
                             ": no amounts per tonne are told of a feed that is not even; " +
                             (begins ? "begin earlier, or give a later dust.steady_after"
                                     : "end later, or give an earlier time.end"));
+  }
+}
+
+void check_feed_zones(const Setup& setup, const DustSetup& dust, const ParticleModels& models,
+                      std::span<const std::vector<sdk::InsertionRequest>> first,
+                      scenario::Diagnostics& diagnostics) {
+  if (!dust.field || !dust.liberation || !dust.feed_zones.empty()) return;
+  for (std::size_t n = 0; n < first.size(); ++n) {
+    const auto material = static_cast<std::size_t>(setup.emitters[n].material);
+    const bool is_dusty = material < dust.loads.size() && !dust.loads[material].share.empty();
+    if (first[n].empty() || !is_dusty || !(models.emitters[n]->request().mass_flow > 0.0)) continue;
+    const sdk::InsertionRequest& grain = first[n].front();
+    const Journey way = follow_grain(setup, models.bodies, grain, setup.time.end);
+    for (std::size_t b = 0; b < models.bodies.size(); ++b) {
+      const bodies::Body& belt = models.bodies[b];
+      const bool is_belt = !belt.motions.empty() && !belt.is_carried();
+      if (!is_belt || !(way.on_body[b] > k_riding * way.carried)) continue;
+      diagnostics.warning(
+          setup.emitters[n].model.where,
+          setup.emitters[n].model.path + ": its grains rain one by one onto '" + belt.name +
+              "', which sets dust free that a load at rest on the belt keeps; name the box in "
+              "which they land, as dust.feed_zones: {" +
+              setup.emitters[n].name + ": {min: [...], max: [...]}} round " +
+              base::place_text(grain.position));
+      break;
+    }
   }
 }
 

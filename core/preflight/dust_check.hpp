@@ -45,6 +45,14 @@ void check_drift(const scenario::Setup& setup, const scenario::DustSetup& dust, 
 void check_feeds(const scenario::Setup& setup, const scenario::DustSetup& dust, bool is_branch,
                  const ParticleModels& models, scenario::Diagnostics& diagnostics);
 
+/// Hints at `dust.feed_zones` where a load with dust rains onto a running belt grain by grain and
+/// no zone is given: in the plant it lies there already. `first`: the grains that each emitter
+/// proposes first.
+void check_feed_zones(const scenario::Setup& setup, const scenario::DustSetup& dust,
+                      const ParticleModels& models,
+                      std::span<const std::vector<sdk::InsertionRequest>> first,
+                      scenario::Diagnostics& diagnostics);
+
 /// What a law of liberation is prepared with; the diameters stay those of `field`.
 sdk::DustProperties dust_properties(const scenario::Setup& setup,
                                     const scenario::DustFieldSpec& field);

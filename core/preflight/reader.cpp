@@ -3,6 +3,7 @@
 
 #include "preflight/air/driven_speed.hpp"
 #include "preflight/air/flow_check.hpp"
+#include "preflight/air/opening_check.hpp"
 #include "preflight/air/wall_shear_check.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/dust_check.hpp"
@@ -36,6 +37,7 @@ void check_sides(const scenario::ReadResult& read, const registry::Registry& reg
   check_flow(setup, sides.models(), diagnostics);
   if (!diagnostics.has_errors()) {
     check_driven_speed(setup, sides.models(), read.dust.openings, diagnostics);
+    check_opening_cells(setup, read.dust.openings, diagnostics);
   }
   check_wall_shear(setup, sides.models(), registry, diagnostics);
 }
@@ -70,6 +72,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
       read.dust.field ? wind_speed(read.setup, SideModelSet(read.setup, registry).models()) : 0.0;
   check_drift(read.setup, read.dust, wind, models, diagnostics);
   check_liberation(read.setup, read.dust, registry);
+  check_feed_zones(read.setup, read.dust, models, first, diagnostics);
   check_feeds(read.setup, read.dust, read.start.from.has_value(), models, diagnostics);
   check_body_places(read.setup, models, diagnostics);
   check_mesh_sizes(read.setup, models, diagnostics);

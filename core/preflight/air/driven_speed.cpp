@@ -14,7 +14,6 @@ namespace {
 
 using scenario::BodySpec;
 using scenario::Diagnostics;
-using scenario::Mark;
 using scenario::Setup;
 using scenario::SideSpec;
 using scenario::SuctionSpec;
@@ -24,6 +23,8 @@ using sdk::SideRule;
 constexpr double k_at_edges = 2.5;
 /// [m/s] Mach 0.3 in air, where its density changes by 5 %.
 constexpr double k_compressible = 100.0;
+/// [m/s] More than any hood or duct of a plant draws at.
+constexpr double k_unusual = 30.0;
 
 /// [m2] The largest face of the box round an opening, as far as it is in the domain's size.
 double area_of(const Setup& setup, const SuctionSpec& suction) {
@@ -71,6 +72,31 @@ double opening_speed(const Setup& setup, const scenario::SideOpeningSpec& openin
   return area > 0.0 ? std::abs(flow) / area : 0.0;
 }
 
+/// What is wrong with openings and sides that drive the fluid as fast as this; empty: nothing.
+/// `is_hood`: draws out through an opening.
+std::string speed_problem(double speed, bool is_hood) {
+  const std::string text = base::digits_text(speed, 3) + " m/s: ";
+  if (speed > k_compressible) {
+    return text + "the fluid is taken to be incompressible, which air is up to some " +
+           base::digits_text(k_compressible, 3) + " m/s; is the unit right, as in flow: 300 m3/h?";
+  }
+  if (!is_hood || !(speed > k_unusual)) return {};
+  return text +
+         "hoods draw at 0.5 to 2.5 m/s through their face and ducts at 15 to 25 m/s; is the unit "
+         "of the flow right, as in flow: 300 m3/h, and the opening (min, max) as large as it is "
+         "built?";
+}
+
+void check_suction_speed(const Setup& setup, const BodySpec& body, Diagnostics& diagnostics) {
+  const SuctionSpec& suction = *body.suction;
+  const std::string problem = speed_problem(suction_speed(setup, suction), suction.flow > 0.0);
+  if (problem.empty()) return;
+  diagnostics.warning(suction.where,
+                      "bodies." + body.name + ".suction: " + base::volume_flow_text(suction.flow) +
+                          " through at most " + base::area_text(area_of(setup, suction)) + " are " +
+                          problem);
+}
+
 }  // namespace
 
 double suction_at(const scenario::SuctionSpec& s, double time) {
@@ -108,31 +134,24 @@ void check_driven_speed(const Setup& setup, const SideModels& sides,
                         const std::vector<scenario::SideOpeningSpec>& openings,
                         Diagnostics& diagnostics) {
   if (!setup.fluid) return;
-  const auto warn = [&](const Mark& where, const std::string& what, double speed) {
-    if (!(speed > k_compressible)) return;
-    diagnostics.warning(where, what + " " + base::digits_text(speed, 3) +
-                                   " m/s: the fluid is taken to be incompressible, which air is up "
-                                   "to some " +
-                                   base::digits_text(k_compressible, 3) +
-                                   " m/s; is the unit right, as in flow: 300 m3/h?");
-  };
   for (const BodySpec& body : setup.bodies) {
-    if (!body.suction) continue;
-    warn(body.suction->where,
-         "bodies." + body.name + ".suction: " + base::volume_flow_text(body.suction->flow) +
-             " through at most " + base::area_text(area_of(setup, *body.suction)) + " are",
-         suction_speed(setup, *body.suction));
+    if (body.suction) check_suction_speed(setup, body, diagnostics);
   }
   const std::array<double, 6> flows = side_flows(setup, sides);
   for (std::size_t n = 0; n < 6; ++n) {
     const SideSpec& side = setup.domain.sides[n];
     double speed = side_speed(setup, sides, n);
+    bool is_hood = false;
     for (const scenario::SideOpeningSpec& opening : openings) {
       if (static_cast<std::size_t>(opening.side) != n) continue;
       speed = std::max(speed, opening_speed(setup, opening, flows[n]));
+      is_hood = true;  // those that draw out
     }
-    warn(side.air ? side.air->where : side.where, path_of_side(n) + ".air: drives the fluid at",
-         speed);
+    const std::string problem = speed_problem(speed, is_hood);
+    if (problem.empty()) continue;
+    diagnostics.warning(side.air ? side.air->where : side.where,
+                        path_of_side(n) + ".air: " + (speed > k_compressible ? "drives" : "draws") +
+                            " the fluid at " + problem);
   }
 }
 

@@ -14,7 +14,8 @@ namespace dust::preflight {
 double suction_at(const scenario::SuctionSpec& suction, double time);
 
 /// Warns of openings and sides that drive the fluid faster than what its equations hold for, a
-/// third of the speed of sound in air: mostly a wrong unit.
+/// third of the speed of sound in air, and of hoods that draw faster than any plant's: mostly a
+/// wrong unit.
 void check_driven_speed(const scenario::Setup& setup, const SideModels& sides,
                         const std::vector<scenario::SideOpeningSpec>& openings,
                         scenario::Diagnostics& diagnostics);

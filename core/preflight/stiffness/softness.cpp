@@ -171,7 +171,7 @@ std::string impact_speed_text(const ImpactOverlap& impact) {
 void check_softness(const Setup& setup, const ParticleModels& models,
                     const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
   const ImpactOverlap impact = expected_impact(setup, models, registry);
-  if (!(impact.ratio > k_warned_after_fall) && !(impact.ratio_in_stream > k_warned_overlap)) return;
+  if (!(std::max(impact.ratio, impact.ratio_in_stream) > k_warned_overlap)) return;
   const scenario::InteractionSpec& pair = setup.interactions[impact.interaction];
   diagnostics.warning(
       pair.contact.where,

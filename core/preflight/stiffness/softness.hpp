@@ -27,10 +27,8 @@ struct ImpactOverlap {
 /// Above this overlap over the radius grains are soft, docs/result_files.md, "health": said in the
 /// line of `engine check`. Many scenarios are so on purpose, for longer steps.
 inline constexpr double k_soft_overlap = 0.05;
-/// Above this one a scenario is warned of: mostly a missing MPa.
+/// Above this one a scenario is warned of, be it at the end of a fall that something may break.
 inline constexpr double k_warned_overlap = 0.3;
-/// The same at the end of a fall, which is an upper bound: something may break it.
-inline constexpr double k_warned_after_fall = 0.5;
 
 /// The overlap of elastic head-on impacts at `speed` [m/s], of all kinds of grains against walls
 /// and each other, from the law's own collision time: \f$ \delta = v t_c / 2.943 \f$ where the
@@ -43,8 +41,6 @@ ImpactOverlap softest_impact(const scenario::Setup& setup, const ParticleModels&
 /// materials.sand.young_modulus at least 24 MPa".
 std::string stiffer_materials(const scenario::Setup& setup, const scenario::InteractionSpec& pair,
                               double factor);
-
-/// What to write so that this impact overlaps by k_soft_overlap.
 
 /// The softest impact at the speed that the scenario expects. Where it says none, at that of its
 /// steps or of the largest fall, whichever is faster: steps follow from approach speeds in a stream
@@ -60,7 +56,7 @@ std::string impact_speed_text(const ImpactOverlap& impact);
 std::string stiffness_advice(const scenario::Setup& setup, const ImpactOverlap& impact);
 
 /// Warns where grains are so soft that they overlap by more than k_warned_overlap of their radius
-/// in the expected impact, or k_warned_after_fall, with the stiffness to write.
+/// in the expected impact, with the stiffness to write.
 void check_softness(const scenario::Setup& setup, const ParticleModels& models,
                     const registry::Registry& registry, scenario::Diagnostics& diagnostics);
 

@@ -97,6 +97,53 @@ TEST_CASE("a check shall name narrow gaps with both bodies, the place and the li
   CHECK(text.find("gap.yaml:20:") != std::string::npos);
 }
 
+TEST_CASE("a body that crosses a running belt shall be warned of, with file and line") {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "belt.yaml";
+  std::ofstream(file)
+      << "name: belt\n"
+         "time: {end: 2 s, fluid_step: 5 ms, output_every: 1 s}\n"
+         "gravity: [0, 0, -9.81]\n"
+         "domain: {min: [0, 0, 0], max: [2, 0.5, 1 m], boundaries: {left: {grains: open}, right: "
+         "{grains: open}, front: {grains: open}, back: {grains: open}, bottom: {grains: open}, "
+         "top: {grains: open}}}\n"
+         "materials:\n"
+         "  coal: {density: 1400, young_modulus: 5 MPa, poisson_ratio: 0.3}\n"
+         "interactions:\n"
+         "  - {between: [coal, coal], contact: {model: hertz_mindlin, restitution: 0.3, friction: "
+         "0.5}}\n"
+         "bodies:\n"
+         "  belt: {shape: conveyor, material: coal, head: [2.5, 0.25, 0.4 m], tail: [0.2, 0.25, "
+         "0.4 m], radius: 100 mm, thickness: 10 mm, motion: belt, speed: 1.5 m/s}\n"
+         "  skirt: {shape: box, material: coal, min: [0.5, 0, 0.45 m], max: [1.5, 0.02, 0.8 m]}\n"
+         "  plate: {shape: box, material: coal, min: [0.5, 0.48, 0.6 m], max: [1.5, 0.5, 0.8 m]}\n"
+         "emitters:\n"
+         "  feed: {model: feed, material: coal, mass_flow: 1 kg/s, min: [0.3, 0.1, 0.6], max: "
+         "[0.5, 0.4, 0.6], velocity: [1.5, 0, -1 m/s], diameters: [20 mm], mass_fractions: [1]}\n"
+         "fluid: none\n"
+         "sensors:\n"
+         "  early: {model: kinetic_energy, steady_after: 0.2 s}\n"
+         "  later: {model: kinetic_energy, steady_after: 1.3 s}\n";
+  const auto said = [&](const std::string& key, const std::string& value) {
+    const auto outcome = engine({"check", file.string(), "--set", key + "=" + value});
+    REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    return outcome.err;
+  };
+  const std::string crossing = said("name", "belt");
+  INFO(crossing);
+  CHECK(crossing.find("belt.yaml:11:3: warning: bodies.skirt: touches or crosses 'belt' at ") !=
+        std::string::npos);
+  CHECK(crossing.find("where that runs at 1.5 m/s") != std::string::npos);
+  CHECK(crossing.find("a gap below 20 mm lets no grain through") != std::string::npos);
+  CHECK(crossing.find("bodies.plate") == std::string::npos);
+  CHECK(said("bodies.skirt.min", "[0.5, 0, 0.52 m]").find("crosses") == std::string::npos);
+  CHECK(said("bodies.belt.speed", "0 m/s").find("crosses") == std::string::npos);
+  // A fall of some 70 mm, then 1.6 m at 1.5 m/s.
+  CHECK(crossing.find("sensors.early.steady_after: means begin at 0.2 s, before the stream has "
+                      "come through the domain, at about 1") != std::string::npos);
+  CHECK(crossing.find("sensors.later") == std::string::npos);
+}
+
 TEST_CASE("flows and extents shall be spoken of in the units of their size") {
   const TemporaryFolder folder;
   const std::string small = text_of(write_scenario(folder, 0.1, "1 g/s"));

@@ -220,6 +220,61 @@ TEST_CASE("an opening smaller than a face shall be asked for its speed, not for 
   CHECK_FALSE(warned("0.45 m, 0.05 m"));
 }
 
+TEST_CASE("a hood that draws faster than any plant's shall be asked for its unit") {
+  const auto warned = [](const std::string& flow) {
+    return has(warnings({{"bodies.hood.suction.flow", flow}}),
+               "bodies.hood.suction: " + flow + " through at most ");
+  };
+  CHECK(warned("9000 m3/h"));        // 31 m/s
+  CHECK_FALSE(warned("7200 m3/h"));  // 25 m/s, as in a duct
+  CHECK(has(warnings({{"bodies.hood.suction.flow", "9000 m3/h"}}),
+            "31.2 m/s: hoods draw at 0.5 to 2.5 m/s through their face"));
+  // Nozzles may blow so.
+  CHECK_FALSE(has(warnings({{"bodies.hood.suction.flow", "-9000 m3/h"}}), "hoods draw"));
+}
+
+TEST_CASE("an opening about as wide as a cell shall be warned of, with the cells it takes") {
+  const auto said = [](const std::string& min, const std::string& max) {
+    return warnings({{"bodies.hood.suction.min", min}, {"bodies.hood.suction.max", max}});
+  };
+  const std::string text =
+      "bodies.hood.suction: the opening is 120 mm wide along x, and cells of the fluid are 100 mm "
+      "there: ";
+  CHECK(has(said("[0.44, 0, 0.7 m]", "[0.56, 0.2, 0.7 m]"), text));
+  CHECK(has(said("[0.44, 0, 0.7 m]", "[0.56, 0.2, 0.7 m]"), "take cells of 30 mm"));
+  CHECK_FALSE(has(said("[0.42, 0, 0.7 m]", "[0.58, 0.2, 0.7 m]"), "the opening is"));
+  const auto in_side = std::vector<scenario::Override>{
+      {"bodies", "{}"},
+      {"domain.boundaries.top",
+       "{grains: wall, material: steel, air: {model: hood, flow: 10 l/s, min: [0.4, 0, 1 m], max: "
+       "[0.6, 0.1, 1 m]}}"}};
+  CHECK(has(warnings(in_side),
+            "domain.boundaries.top.air: the opening is 100 mm wide along y, and cells"));
+}
+
+TEST_CASE(
+    "dusty grains that rain onto a belt shall be hinted at feed zones, unless they have one") {
+  const auto said = [](const std::string& speed, const std::string& zones) {
+    return warnings(
+        {{"materials.sand.dust_load", "[1 %]"},
+         {"bodies.belt",
+          "{shape: conveyor, material: steel, head: [0.95, 0.1, 0.3 m], tail: [0.05, 0.1, 0.3 m], "
+          "radius: 40 mm, thickness: 10 mm, motion: belt, speed: " +
+              speed + "}"},
+         {"time.end", "1 s"},
+         {"dust",
+          "{field: {classes: [10 um], material: sand}, liberation: {model: energy, "
+          "binding_energy: 2 MJ/kg}" +
+              zones + "}"}});
+  };
+  const std::string hint = "emitters.feed: its grains rain one by one onto 'belt', which sets dust";
+  CHECK(has(said("1 m/s", ""), hint));
+  CHECK_FALSE(has(
+      said("1 m/s", ", feed_zones: {onto_belt: {min: [0.3, 0, 0.3 m], max: [0.7, 0.2, 0.6 m]}}"),
+      hint));
+  CHECK_FALSE(has(warnings({}), hint));
+}
+
 TEST_CASE("means over fewer than two blocks shall be warned of") {
   const auto warned = [](const std::string& block) {
     return has(warnings({{"sensors.low",

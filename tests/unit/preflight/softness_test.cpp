@@ -159,6 +159,17 @@ TEST_CASE("the modulus that is advised for the end of a fall shall make its impa
   CHECK(after <= preflight::k_soft_overlap * (1.0 + k_duration));
 }
 
+TEST_CASE("an overlap of a third at the end of a fall shall be warned of, as in a stream") {
+  const scenario::Override none = {"time.expected_speed", "0"};
+  const scenario::Override soft = {"materials.sand.young_modulus", "640 kPa"};
+  const auto fallen = impact({none, soft});
+  CHECK(fallen.ratio == test::approx(0.36).epsilon(0.03));
+  CHECK(fallen.ratio_in_stream < preflight::k_warned_overlap);
+  CHECK(warning({none, soft}).find("% of their radius in an impact at 2 m/s, after a fall") !=
+        std::string::npos);
+  CHECK(warning({none, {"materials.sand.young_modulus", "2 MPa"}}) == "");
+}
+
 TEST_CASE("a missing MPa shall be warned of with the modulus to write") {
   CHECK(warning({}) == "");
   const std::string text = warning({{"materials.sand.young_modulus", "5"}});

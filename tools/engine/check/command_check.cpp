@@ -10,9 +10,11 @@
 #include "preflight/learnt_costs.hpp"
 #include "preflight/placing.hpp"
 #include "preflight/reader.hpp"
+#include "preflight/steady_check.hpp"
 #include "run/branch/preview.hpp"
 #include "scenario/diagnostics.hpp"
 
+#include <filesystem>
 #include <iostream>
 
 namespace dust::engine {
@@ -23,6 +25,11 @@ bool is_picture(const std::string& name) { return name.ends_with(".svg"); }
 
 std::string output_problem(const std::string& name) {
   return is_picture(name) ? picture_name_problem(name) : page_name_problem(name);
+}
+
+void warn_of_memory(const std::filesystem::path& scenario, const preflight::RunCost& expected) {
+  const std::string shortage = preflight::memory_shortage(expected);
+  if (!shortage.empty()) std::cerr << scenario.string() << ": warning: " << shortage << '\n';
 }
 
 }  // namespace
@@ -63,11 +70,12 @@ void add_check(CLI::App& app, int&) {
     const auto derived = preflight::derive(result.setup, *registry, result.dust, begin);
     preflight::try_placing(result.setup, *registry, derived, begin);
     const auto survey = preflight::survey_bodies(result.setup, *registry);
+    scenario::Diagnostics further;
+    preflight::check_crossings(survey, further);
+    if (!start) preflight::check_steady(result.setup, result.dust, *registry, derived, further);
+    for (const std::string& warning : further.warning_lines()) std::cerr << warning << '\n';
     const auto learnt = preflight::LearntCosts().expect(result.setup.name, derived.cost);
-    const std::string shortage = preflight::memory_shortage(learnt.cost);
-    if (!shortage.empty()) {
-      std::cerr << options.scenario.string() << ": warning: " << shortage << '\n';
-    }
+    warn_of_memory(options.scenario, learnt.cost);
     std::cout << (arguments->as_json ? check_json : check_summary)(result.setup, result.dust,
                                                                    derived, survey, learnt);
     if (start && !arguments->as_json) {
