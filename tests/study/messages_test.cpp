@@ -73,7 +73,7 @@ TEST_CASE("all that is wrong in a study shall be told at once, also beside an un
                 of_key + of_measure +
                     "s.yaml:4:7: error: unknown key 'edn' in time; did you mean 'end'?\n"
                     "s.yaml:5:37: error: emitters.feed.mass_flow: 'mm' is the unit of a length: a "
-                    "mass flow is expected (kg/s, g/s, t/h)");
+                    "mass flow is expected (kg/s, g/s, t/h, tph)");
   // What cannot be read makes no point that could be looked at.
   check_message("base: drop.yaml\nvari: {time.end: [20, 40 ms]}\n" + measure,
                 "s.yaml:2:1: error: unknown key 'vari' in the study; did you mean 'vary'?");
@@ -121,7 +121,7 @@ TEST_CASE("a scenario that is given for a study shall be told to be one") {
 TEST_CASE("a study with a wrong unit shall be told once, where it stands") {
   check_message(k_head + "vary: {emitters.feed.mass_flow: [1, 2, 3 mm]}\n",
                 "s.yaml:3:40: error: emitters.feed.mass_flow: 'mm' is the unit of a length: a mass "
-                "flow is expected (kg/s, g/s, t/h)");
+                "flow is expected (kg/s, g/s, t/h, tph)");
   check_message(k_head + "vary:\n  emitters.feed.mass_flow: {from: 1 g/s, to: 2 kg/s, count: 2}\n",
                 "s.yaml:4:46: error: vary.emitters.feed.mass_flow: write both ends in one unit");
   check_message(

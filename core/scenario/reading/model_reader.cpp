@@ -66,6 +66,21 @@ bool is_default(const sdk::Parameter& parameter, const sdk::Value& value) {
   return !parameter.is_required && parameter.default_value == value;
 }
 
+/// Where parameters of a model were given from elsewhere than its name (the command line, a file
+/// laid over), the place of the first of them: one that names a file before others.
+/// `only_files`: no others. `otherwise` where there is none.
+Mark place_of_overrides(const Node& map, const sdk::ParameterSchema& schema, const Mark& otherwise,
+                        bool only_files) {
+  const Mark* other = nullptr;
+  for (const sdk::Parameter& parameter : schema) {
+    const Entry* entry = map.find(parameter.name);
+    if (entry == nullptr || entry->value.where.file == otherwise.file) continue;
+    if (parameter.refers == sdk::Refers::file) return entry->value.where;
+    if (other == nullptr) other = &entry->value.where;
+  }
+  return other == nullptr || only_files ? otherwise : *other;
+}
+
 }  // namespace
 
 int Names::index(const std::string& name) const {
@@ -225,7 +240,8 @@ ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std
     return {};
   }
   const std::size_t errors_before = diagnostics_.error_count();
-  ModelChoice choice{kind, name.text, reader.values(*offer->parameters), reader.path(), name.where};
+  ModelChoice choice{kind, name.text, reader.values(*offer->parameters), reader.path(),
+                     place_of_overrides(reader.node(), *offer->parameters, name.where, true)};
   find_files(reader, *offer->parameters, choice.values);
   check_references(reader, *offer->parameters, choice.values, is_enabled);
   ReadModel result;
@@ -235,17 +251,18 @@ ReadModel ModelReader::read(MapReader& reader, const std::string& key, const std
     result.written.push_back({(*offer->parameters)[n].name, {}, written_value(choice.values[n])});
   }
   if (diagnostics_.error_count() == errors_before) {
+    const Mark where = place_of_overrides(reader.node(), *offer->parameters, name.where, false);
     try {
       result.model = offer->make(choice.values);
     } catch (const std::bad_alloc&) {
-      diagnostics_.error(name.where, reader.path() + ": " + kind + "/" + name.text +
-                                         " needs more memory with these values than there is: ask "
-                                         "for fewer cells, or for less");
+      diagnostics_.error(where, reader.path() + ": " + kind + "/" + name.text +
+                                    " needs more memory with these values than there is: ask "
+                                    "for fewer cells, or for less");
     } catch (const std::exception& problem) {
-      diagnostics_.error(name.where, reader.path() + ": " + std::string(problem.what()));
+      diagnostics_.error(where, reader.path() + ": " + std::string(problem.what()));
     } catch (...) {
-      diagnostics_.error(name.where, reader.path() + ": " + kind + "/" + name.text +
-                                         " throws something that is no std::exception");
+      diagnostics_.error(where, reader.path() + ": " + kind + "/" + name.text +
+                                    " throws something that is no std::exception");
     }
   }
   result.choice = std::move(choice);

@@ -53,6 +53,9 @@ constexpr std::array k_symbols = {
     Symbol{"ft", 3048, 10000, dim::length, false},
     Symbol{"lb", 45359237, 1e8, dim::mass, false},
     Symbol{"cfm", 28316846592, 6e13, dim::volume_flow, false},
+    Symbol{"fpm", 3048, 600000, dim::velocity, false},
+    // Of metric tonnes, as everywhere here.
+    Symbol{"tph", 1000, 3600, dim::mass_flow, false},
 };
 
 struct Prefix {
@@ -66,7 +69,8 @@ constexpr std::array k_prefixes = {
     Prefix{"k", 1e3, 1}, Prefix{"M", 1e6, 1}, Prefix{"G", 1e9, 1},
 };
 
-/// Names of dimensions and units to offer, SI first.
+/// Names of dimensions and the first units to offer, SI before others; the symbols of the table
+/// that take no prefix follow by themselves.
 struct Named {
   Dimension dimension;
   std::string_view name;
@@ -273,8 +277,16 @@ std::string dimension_name(Dimension d) {
 }
 
 std::string example_units(Dimension d) {
-  if (const Named* n = find_named(d)) return std::string(n->units);
-  return si_unit(d);
+  const Named* n = find_named(d);
+  std::string units = n != nullptr ? std::string(n->units) : si_unit(d);
+  for (const Symbol& s : k_symbols) {
+    const bool is_plain = static_cast<unsigned char>(s.name.front()) < 0x80;
+    if (s.dimension != d || s.takes_prefix || !is_plain) continue;
+    const bool is_there =
+        (", " + units + ",").find(" " + std::string(s.name) + ",") != std::string::npos;
+    if (!is_there) units.append(", ").append(s.name);
+  }
+  return units;
 }
 
 std::optional<WrittenNumber> split_number(std::string_view raw, std::string& error) {

@@ -25,7 +25,7 @@ std::optional<Unit> parse_unit(std::string_view text);
 std::string si_unit(sdk::Dimension dimension);
 /// Name of a dimension for messages: "a length", "a mass flow".
 std::string dimension_name(sdk::Dimension dimension);
-/// Units a user may choose from: "m, mm, um".
+/// Units a user may choose from: "m, mm, um, in, ft".
 std::string example_units(sdk::Dimension dimension);
 
 /// A number and the unit behind it, as written.

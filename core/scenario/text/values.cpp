@@ -250,6 +250,15 @@ class ValueReader {
     if (Value(v) != parameter_.default_value && !all_in_range(node, *values)) return std::nullopt;
     return v;
   }
+  /// What to write in place of nothing.
+  [[nodiscard]] std::string empty_list() const {
+    std::string text = "the list is empty: give at least one";
+    if (!parameter_.options.empty()) text += " of " + listed(parameter_.options);
+    if (parameter_.is_required) return text;
+    text += ", or leave '" + parameter_.name + "' out";
+    const auto* usual = std::get_if<std::vector<std::string>>(&parameter_.default_value);
+    return usual == nullptr || usual->empty() ? text : text + ", which means " + listed(*usual);
+  }
   std::optional<Value> numbers(const Node& node) {
     if (!node.is_list()) {
       return fail(node, "a list like [1, 2, 3" +
@@ -261,7 +270,7 @@ class ValueReader {
     const auto values = components(node);
     if (!values) return std::nullopt;
     const bool is_default = Value(*values) == parameter_.default_value;
-    if (values->empty() && !is_default) return fail(node, "the list is empty");
+    if (values->empty() && !is_default) return fail(node, empty_list());
     if (!is_default && !all_in_range(node, *values)) return std::nullopt;
     return *values;
   }
@@ -282,7 +291,7 @@ class ValueReader {
     }
     if (!is_good) return std::nullopt;
     if (values.empty() && Value(values) != parameter_.default_value) {
-      return fail(node, "the list is empty");
+      return fail(node, empty_list());
     }
     return values;
   }
@@ -300,7 +309,7 @@ class ValueReader {
     }
     if (!is_good) return std::nullopt;
     if (values.empty() && Value(values) != parameter_.default_value) {
-      return fail(node, "the list is empty");
+      return fail(node, empty_list());
     }
     return values;
   }

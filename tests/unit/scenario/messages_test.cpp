@@ -189,12 +189,12 @@ TEST_CASE("a value of another kind shall be told with the kind expected") {
         "s.yaml:24:20: error: bodies.plate.enabled: 'no' is not true or false: write false");
   check("end: 1 s", "end: .inf", "s.yaml:2:13: error: time.end: .inf is not a finite number");
   check("end: 1 s", "end: soon",
-        "s.yaml:2:13: error: time.end: a time (s, ms, min) is expected, not 'soon'");
+        "s.yaml:2:13: error: time.end: a time (s, ms, min, h) is expected, not 'soon'");
   check("end: 1 s", "end: 010",
         "s.yaml:2:13: error: time.end: '010' could be read as an octal number: leave out the "
         "leading zero and write 10");
   check("end: 1 s",
-        "end:", "s.yaml:2:8: error: time.end: a time (s, ms, min) is expected, not nothing");
+        "end:", "s.yaml:2:8: error: time.end: a time (s, ms, min, h) is expected, not nothing");
   check("density: 1.2 kg/m3", "density: 1.2 kg",
         "s.yaml:36:12: error: fluid.density: 'kg' is the unit of a mass: a density is expected "
         "(kg/m3, g/cm3, t/m3)");
@@ -316,6 +316,31 @@ TEST_CASE("a body that contradicts itself shall be told with a remedy") {
       "lid: {shape: cylinder, material: glass, base: [0, 0, 0], axis: [0, 0, 1], length: 1 mm, "
       "radius: -1 mm}",
       "bodies.lid.radius: -1 mm is outside R > 0 m");
+}
+
+TEST_CASE("what is wrong with a part that the command line chooses shall be told of that") {
+  const Folder folder;
+  folder.write("open.stl", "solid a\n vertex 10 0 0\n vertex 11 0 0\n vertex 10 1 0\nendsolid\n");
+  folder.write("not.stl", "hello");
+  folder.write("base.yaml", changed(k_small, k_plate,
+                                    "  lid: {shape: mesh, material: glass, unit: 1 mm, file: "
+                                    "open.stl, open: allowed}\n"));
+  const auto file = folder.write("s.yaml", "include: base.yaml\nname: over\n");
+  CHECK(joined(problems(file)).empty());
+  const auto said = [&](const std::string& path, const std::string& value) {
+    return joined(problems(file, {{path, value}}));
+  };
+  CHECK(said("bodies.lid.file", (folder.path() / "not.stl").string())
+            .starts_with("--set bodies.lid.file: error: bodies.lid: "));
+  CHECK(said("bodies.lid.open", "refused").starts_with("--set bodies.lid.open: error: bodies.lid"));
+}
+
+TEST_CASE("an empty list shall be told what may stand in it and what it means to leave it out") {
+  check_body(
+      "lid: {shape: container, material: glass, min: [0, 0, 0], max: [1, 1, 1 mm], thickness: 1 "
+      "mm, open: []}",
+      "bodies.lid.open: the list is empty: give at least one of left, right, front, back, bottom, "
+      "top, or leave 'open' out, which means top");
 }
 
 TEST_CASE("a bare angle that only degrees make sense of shall be told with them") {
@@ -480,7 +505,7 @@ TEST_CASE("a unit on some components only shall be told") {
 TEST_CASE("a wrong unit that the last component gives to all shall be told where it is written") {
   check("min: [1, 1, 40 mm]", "min: [1, 1,\n      40 furlong]",
         "s.yaml:31:7: error: emitters.feed.min: unknown unit 'furlong': a length is expected (m, "
-        "mm, um)");
+        "mm, um, in, ft)");
 }
 
 TEST_CASE("all problems shall be told at once, in the order of the file") {

@@ -59,6 +59,8 @@ TEST_CASE("the units of the trade shall give SI values") {
   CHECK(value("100 lb/ft3", dim::density) == approx(1601.846337396014).epsilon(1e-14));
   CHECK(value("1000 cfm", dim::volume_flow) ==
         approx(1000 * 0.3048 * 0.3048 * 0.3048 / 60).epsilon(1e-14));
+  CHECK(value("600 fpm", dim::velocity) == approx(3.048).epsilon(k_two_roundings));
+  CHECK(value("500 tph", dim::mass_flow) == approx(500e3 / 3600).epsilon(k_two_roundings));
   CHECK(value("20 degC", dim::temperature) == approx(293.15).epsilon(k_two_roundings));
   CHECK(value("-40 \u00b0C", dim::temperature) == approx(233.15).epsilon(k_two_roundings));
   // Its zero lies elsewhere: it is not a factor.
@@ -91,7 +93,7 @@ TEST_CASE("compound units, exponents and brackets shall be understood") {
 TEST_CASE("a unit of another dimension shall be refused with the expected one") {
   CHECK(refusal("16 mm", dim::angle) ==
         "'mm' is the unit of a length: an angle is expected (rad, deg)");
-  CHECK(refusal("1 kg", dim::mass_flow).find("a mass flow is expected (kg/s, g/s, t/h)") !=
+  CHECK(refusal("1 kg", dim::mass_flow).find("a mass flow is expected (kg/s, g/s, t/h, tph)") !=
         std::string::npos);
   CHECK(refusal("1 mm", dim::none).find("a bare number is expected") != std::string::npos);
   CHECK(refusal("5 %", dim::length).find("a length is expected") != std::string::npos);
@@ -100,6 +102,16 @@ TEST_CASE("a unit of another dimension shall be refused with the expected one") 
        {"m^", "m/", "/m", "m//s", "(m", "m)", "m-", "()", "m(", "((((((((((m))))))))))"}) {
     CHECK_MESSAGE(!parse_unit(unit), unit);
   }
+}
+
+TEST_CASE("units to choose from shall hold those of the table that no prefix makes, each once") {
+  CHECK(example_units(dim::length) == "m, mm, um, in, ft");
+  CHECK(example_units(dim::mass) == "kg, g, mg, t, lb");
+  CHECK(example_units(dim::time) == "s, ms, min, h");
+  CHECK(example_units(dim::angle) == "rad, deg");
+  CHECK(example_units(dim::angular_velocity) == "rad/s, deg/s, rpm");
+  CHECK(example_units(dim::volume_flow) == "m3/s, l/min, m3/h, cfm");
+  CHECK(example_units(dim::velocity) == "m/s, mm/s, m/min, fpm");
 }
 
 TEST_CASE("numbers that other readers take differently shall be refused with what to write") {
