@@ -361,6 +361,11 @@ TEST_CASE("check shall draw the set-up as a picture where one is asked for") {
   CHECK(picture.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""));
   CHECK(picture.find("<title>belt</title>") != std::string::npos);
   CHECK(picture.ends_with("</svg>\n"));
+  // Axes with their units, a scale, what belts, feeds and openings look like.
+  for (const char* part : {">x, mm</text>", ">z, mm</text>", ">belt and its way</text>",
+                           ">feed</text>", ">opening for air</text>"}) {
+    CHECK_MESSAGE(picture.find(part) != std::string::npos, part);
+  }
   CHECK(engine(command).status == 0);  // its own
   std::ofstream(file) << "<svg>mine</svg>";
   CHECK(engine(command).status == 2);

@@ -87,7 +87,7 @@ void add_check(CLI::App& app, int&) {
     if (!arguments->page.empty()) {
       const std::string numbers = check_json(result.setup, result.dust, derived, survey, learnt);
       write_file(arguments->page, is_picture(arguments->page)
-                                      ? setup_picture(result.setup)
+                                      ? setup_picture(result.setup, result.dust, *registry, derived)
                                       : setup_page(result.setup, result.dust, *registry, numbers));
       if (!arguments->as_json) std::cout << "drawn in " << arguments->page << '\n';
     }
