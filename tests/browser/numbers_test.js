@@ -48,6 +48,13 @@ assert.strictEqual(N.percent(0.6881), '69\u202f%');
 assert.strictEqual(N.percent(1e-6), '<\u202f0.01\u202f%');
 assert.strictEqual(N.words('class_10_um/sum_of_lumps'), 'class 10 µm / sum of lumps');
 assert.strictEqual(N.plural(1, 'limit'), '1 limit');
+// Names keep the capitals that they were given.
+assert.strictEqual(N.sentence('transfer_point'), 'Transfer point');
+assert.strictEqual(N.sentence('übergabe'), 'Übergabe');
+assert.strictEqual(N.sentence('TP7'), 'TP7');
+assert.strictEqual(N.sentence('tp7_north'), 'tp7 north');
+assert.strictEqual(N.sentence('mDust_out'), 'mDust out');
+assert.strictEqual(N.sentence('lip, mass'), 'Lip, mass');
 assert.ok(N.is_geometric([1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1]));
 assert.ok(!N.is_geometric([0, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1]));
 assert.ok(!N.is_geometric([1e-6, 1e-5, 1e-4, 1e-3, 2e-3, 1e-1]));

@@ -132,7 +132,7 @@
       y: c.values.map((v) => (v === null ? null : v / scale.factor))}));
     const title = lines.length === 1 ? (sensor ? sensor + ', ' : '') + lines[0].name : sensor || {kg: 'Mass', J: 'Energy', '-': 'Counts', '1': 'Counts', '': 'Counts'}[unit] || 'Quantities';
     const bare = scale.unit === '-' || scale.unit === '1' || scale.unit === '';
-    in_chunks(lines, title.charAt(0).toUpperCase() + title.slice(1), (part, name) => Dust.plot(grid_of(sensor ? place_of(sensor) : 'series'), {title: name, x_label: 'time, s',
+    in_chunks(lines, Dust.sentence(title), (part, name) => Dust.plot(grid_of(sensor ? place_of(sensor) : 'series'), {title: name, x_label: 'time, s',
       y_label: bare ? 'Number' : 'In ' + scale.unit, unit: bare ? '' : scale.unit, lines: part}));
   }
   say_zeros();

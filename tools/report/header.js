@@ -21,7 +21,7 @@ Dust.sections.header = (data) => {
     return p({class: 'banner', role: 'status'}, Dust.strong((status === 'failed' ? 'This run failed' : 'This run was stopped before its end') + at + '.'),
       ' Everything below is what it had reached. ', text_of(summary.reason) ? text_of(summary.reason) + ' ' : '', way_on);
   };
-  const place = Dust.place = (figure) => el('em', {}, Dust.words(figure.sensor)
+  const place = Dust.place = (figure, words = Dust.words) => el('em', {}, words(figure.sensor)
     + (figure.diameter_m !== null && dust.classes.length > 1 ? ` (grains of ${Dust.quantity(figure.diameter_m, -1, 'm')})` : ''));
   const spoken = dust ? dust[dust.spoken_of] : [];
   const has_counted = spoken.some((f) => f.value !== 0);
@@ -77,7 +77,7 @@ Dust.sections.header = (data) => {
     // Where it is on its way: the largest passage that is a part of a total.
     const passing = dust.spoken_of === 'openings' && dust.passages.find((f) => f.towards && f.value !== 0);
     const first = dust.partings[0];
-    return answer('From where?', has_counted ? place(top) : 'nowhere yet', el('ul', {class: 'ranks'}, ...rows),
+    return answer('From where?', has_counted ? place(top, Dust.sentence) : 'nowhere yet', el('ul', {class: 'ranks'}, ...rows),
       passing && p({}, Dust.amount(passing) + ' pass ', place(passing)),
       first && p({}, el('a', {href: '#dust'}, 'Parted from the load'), ` most near ${Dust.place_xz(first)}: `
         + `${Dust.value(100 * first.share, 100 * first.share_error)}\u202f%`));

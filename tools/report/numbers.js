@@ -107,7 +107,8 @@ const Numbers = (() => {
     return list.every((v, k) => k === 0 || Math.abs(Math.log(v / list[k - 1]) - step) < 0.2 * step);
   };
   const words = (name) => String(name).replace(/_/g, ' ').replace(/ um(?=$|\W)/g, ' µm').replace(/(\w)\/([a-z]{3,})/g, '$1 / $2');  // m/s stays
-  const sentence = (name) => words(name).replace(/^./, (c) => c.toUpperCase());
+  // A word of small letters begins with a large one; TP7, tp7 and mDust stay as someone wrote them.
+  const sentence = (name) => words(name).replace(/^\p{Ll}(?=\p{Ll}*(?![\p{L}\p{N}]))/u, (c) => c.toUpperCase());
   const plural = (n, one, many = one + 's') => `${count(n)} ${n === 1 ? one : many}`;
   return {is_geometric, decimals_of, set_extent, place_unit, number, count, value, quantity, scale, raise, is_bare, duration, percent, width, words, sentence, plural, thin, dash};
 })();

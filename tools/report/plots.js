@@ -8,7 +8,6 @@
 // shows them in the unit that reads best.
 (() => {
   const ink_of = (k) => Dust.colour('plot' + (k % 6 + 1));
-  const capital = (text) => text.replace(/^./, (c) => c.toUpperCase());
   const flat_height = 246;
   // Labels of an axis of decades: the powers of ten.
   const decades = (u, splits) => splits.map((v) => (v > 0 && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? Dust.number(v) : ''));
@@ -93,7 +92,7 @@
     const x_label = named_x.replace(/^[^,]*/, Dust.words);  // the unit behind the comma stays
     const holder = Dust.el('div', {class: 'plot', role: 'img', 'aria-label': `${Dust.sentence(title)}: ${y_label} against ${x_label}`});
     const words = Dust.el('figcaption', {}, Dust.el('b', {}, Dust.sentence(title) + '.'), ...(caption || [
-      ` ${capital(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note ? ' ' + note.trim() : '']));
+      ` ${Dust.sentence(y_label)}`, x_label ? ` against ${x_label}.` : '.', sensor ? ` Sensor ${Dust.words(sensor)}.` : '', note ? ' ' + note.trim() : '']));
     const has_errors = (line) => Boolean(line.low) && line.low.some((v, k) => Number.isFinite(v) && v !== line.y[k]);
     if (lines.some((line) => has_errors(line) && !has_bars(line))) words.append(' Band: one standard error to either side.');
     if (lines.some((line) => has_errors(line) && has_bars(line))) words.append(' Bars: one standard error to either side.');
