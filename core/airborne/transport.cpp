@@ -65,11 +65,17 @@ DUST_KERNEL void drive_row(int n, double settling, const double* throughflow, co
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) drive[i] = throughflow[i] + settling * passage[i];
 }
+/// The drift by inertia along a row of faces.
+struct InertiaRow {
+  float time = 0.0F;  ///< [s] of the dust
+  const float* acceleration = nullptr;
+  const float* turn = nullptr;
+  float* is_held = nullptr;  ///< out: 1 where the drift is held
+};
 /// With the drift by inertia; docs/theory/dust.md, section 1.
-DUST_KERNEL void drive_with_inertia_row(int n, double settling, float time,
-                                        const double* throughflow, const double* passage,
-                                        const float* acceleration, const float* turn, double* drive,
-                                        float* is_held) {
+DUST_KERNEL void drive_with_inertia_row(int n, double settling, const double* throughflow,
+                                        const double* passage, InertiaRow inertia, double* drive) {
+  const auto [time, acceleration, turn, is_held] = inertia;
   constexpr auto k_share = static_cast<float>(k_largest_stokes_number);
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
@@ -192,9 +198,10 @@ void Transport::find_drive(const Flow& flow, const DustClass& dust) {
       const double* passage = &flow.passage.component[d][o];
       double* drive = &drive_.component[d][o];
       if (has_inertia) {
-        drive_with_inertia_row(n[0], settling, static_cast<float>(dust.inertia_time), throughflow,
-                               passage, &inertia_.gas->field(d)[o], &inertia_.gas->turn(d)[o],
-                               drive, &inertia_.is_held[o]);
+        drive_with_inertia_row(n[0], settling, throughflow, passage,
+                               {static_cast<float>(dust.inertia_time), &inertia_.gas->field(d)[o],
+                                &inertia_.gas->turn(d)[o], &inertia_.is_held[o]},
+                               drive);
       } else {
         drive_row(n[0], settling, throughflow, passage, drive);
       }

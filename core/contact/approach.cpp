@@ -52,11 +52,14 @@ __attribute__((noinline)) void add_other_images(const Lanes* x, const Lanes* v,
 }  // namespace
 
 DUST_KERNEL void mark_approaching(const Trajectories& given, const Images& images,
-                                  const ContactPrediction& prediction, const std::int32_t* a,
-                                  const std::int32_t* b, std::size_t count,
-                                  std::uint8_t* approach) {
-  const Trajectories trajectories =
-      given;  // a copy: the bytes of `approach` may alias whatever stands in memory
+                                  const ContactPrediction& prediction,
+                                  std::span<const std::int32_t> first,
+                                  std::span<const std::int32_t> second, std::uint8_t* approach) {
+  // A copy: the bytes of `approach` may alias whatever stands in memory.
+  const Trajectories trajectories = given;
+  const std::int32_t* const a = first.data();
+  const std::int32_t* const b = second.data();
+  const std::size_t count = first.size();
   const double lifetime = prediction.lifetime;
   const double behind2 = prediction.behind * prediction.behind;
   // x, y, z become differences, the fourth column of positions the sum of the radii.

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace dust::contact {
 
@@ -30,9 +31,9 @@ enum Approach : std::uint8_t {
   k_overlaps = 2,  ///< by more than they come nearer in the time `behind`
 };
 
-/// For grains a[q] and b[q], of `count` pairs: k_may_meet, with k_overlaps or without, or 0.
+/// For the pairs of grains a[q] and b[q]: k_may_meet, with k_overlaps or without, or 0.
 void mark_approaching(const Trajectories& trajectories, const Images& images,
-                      const ContactPrediction& prediction, const std::int32_t* a,
-                      const std::int32_t* b, std::size_t count, std::uint8_t* approach);
+                      const ContactPrediction& prediction, std::span<const std::int32_t> a,
+                      std::span<const std::int32_t> b, std::uint8_t* approach);
 
 }  // namespace dust::contact

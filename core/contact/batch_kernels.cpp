@@ -102,41 +102,21 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
   using B = BatchColumns;
   const std::size_t n = padded(count);
   double* distances = columns.column(B::distance);
-  const double* sx = columns.column(B::separation_x);
-  const double* sy = columns.column(B::separation_y);
-  const double* sz = columns.column(B::separation_z);
+  const auto [sx, sy, sz] = columns.vectors(B::separation_x);
   const double* ri = columns.column(B::radius_i);
   const double* rj = columns.column(B::radius_j);
   const double* inverse_i = columns.column(B::inverse_mass_i);
   const double* inverse_j = columns.column(B::inverse_mass_j);
-  const double* aix = columns.column(B::rotation_i_x);
-  const double* aiy = columns.column(B::rotation_i_y);
-  const double* aiz = columns.column(B::rotation_i_z);
-  const double* ajx = columns.column(B::rotation_j_x);
-  const double* ajy = columns.column(B::rotation_j_y);
-  const double* ajz = columns.column(B::rotation_j_z);
-  const double* tix = columns.column(B::angle_i_x);
-  const double* tiy = columns.column(B::angle_i_y);
-  const double* tiz = columns.column(B::angle_i_z);
-  const double* tjx = columns.column(B::angle_j_x);
-  const double* tjy = columns.column(B::angle_j_y);
-  const double* tjz = columns.column(B::angle_j_z);
-  double* vx = columns.column(B::velocity_x);
-  double* vy = columns.column(B::velocity_y);
-  double* vz = columns.column(B::velocity_z);
-  double* ux = columns.column(B::displacement_x);
-  double* uy = columns.column(B::displacement_y);
-  double* uz = columns.column(B::displacement_z);
-  double* ax = columns.column(B::angle_x);
-  double* ay = columns.column(B::angle_y);
-  double* az = columns.column(B::angle_z);
+  const auto [aix, aiy, aiz] = columns.vectors(B::rotation_i_x);
+  const auto [ajx, ajy, ajz] = columns.vectors(B::rotation_j_x);
+  const auto [tix, tiy, tiz] = columns.vectors(B::angle_i_x);
+  const auto [tjx, tjy, tjz] = columns.vectors(B::angle_j_x);
+  const auto [vx, vy, vz] = columns.mutable_vectors(B::velocity_x);
+  const auto [ux, uy, uz] = columns.mutable_vectors(B::displacement_x);
+  const auto [ax, ay, az] = columns.mutable_vectors(B::angle_x);
   double* overlap = columns.column(B::overlap);
-  double* nx = columns.column(B::normal_x);
-  double* ny = columns.column(B::normal_y);
-  double* nz = columns.column(B::normal_z);
-  double* wx = columns.column(B::rotation_x);
-  double* wy = columns.column(B::rotation_y);
-  double* wz = columns.column(B::rotation_z);
+  const auto [nx, ny, nz] = columns.mutable_vectors(B::normal_x);
+  const auto [wx, wy, wz] = columns.mutable_vectors(B::rotation_x);
   double* radius = columns.column(B::effective_radius);
   double* mass = columns.column(B::effective_mass);
   double* li = columns.column(B::lever_i);
@@ -204,12 +184,8 @@ DUST_KERNEL double derive_pair_columns(BatchColumns& columns, std::size_t count)
 
 DUST_KERNEL void derive_normal_velocity(BatchColumns& columns, std::size_t count) {
   using B = BatchColumns;
-  const double* nx = columns.column(B::normal_x);
-  const double* ny = columns.column(B::normal_y);
-  const double* nz = columns.column(B::normal_z);
-  const double* vx = columns.column(B::velocity_x);
-  const double* vy = columns.column(B::velocity_y);
-  const double* vz = columns.column(B::velocity_z);
+  const auto [nx, ny, nz] = columns.vectors(B::normal_x);
+  const auto [vx, vy, vz] = columns.vectors(B::velocity_x);
   double* normal_velocity = columns.column(B::normal_velocity);
   const std::size_t n = padded(count);
 #pragma omp simd
@@ -220,13 +196,9 @@ DUST_KERNEL void derive_normal_velocity(BatchColumns& columns, std::size_t count
 
 DUST_KERNEL void subtract_attraction(BatchColumns& columns, std::size_t count) {
   using B = BatchColumns;
-  const double* nx = columns.column(B::normal_x);
-  const double* ny = columns.column(B::normal_y);
-  const double* nz = columns.column(B::normal_z);
+  const auto [nx, ny, nz] = columns.vectors(B::normal_x);
   const double* attraction = columns.column(B::attraction);
-  double* fx = columns.column(B::force_x);
-  double* fy = columns.column(B::force_y);
-  double* fz = columns.column(B::force_z);
+  const auto [fx, fy, fz] = columns.mutable_vectors(B::force_x);
   const std::size_t n = padded(count);
 #pragma omp simd
   for (std::size_t q = 0; q < n; ++q) {
@@ -238,23 +210,13 @@ DUST_KERNEL void subtract_attraction(BatchColumns& columns, std::size_t count) {
 
 DUST_KERNEL void derive_torques(BatchColumns& columns, std::size_t count, bool has_couple) {
   using B = BatchColumns;
-  const double* nx = columns.column(B::normal_x);
-  const double* ny = columns.column(B::normal_y);
-  const double* nz = columns.column(B::normal_z);
-  const double* fx = columns.column(B::force_x);
-  const double* fy = columns.column(B::force_y);
-  const double* fz = columns.column(B::force_z);
+  const auto [nx, ny, nz] = columns.vectors(B::normal_x);
+  const auto [fx, fy, fz] = columns.vectors(B::force_x);
   const double* li = columns.column(B::lever_i);
   const double* lj = columns.column(B::lever_j);
-  const double* mx = columns.column(B::torque_x);
-  const double* my = columns.column(B::torque_y);
-  const double* mz = columns.column(B::torque_z);
-  double* ix = columns.column(B::torque_i_x);
-  double* iy = columns.column(B::torque_i_y);
-  double* iz = columns.column(B::torque_i_z);
-  double* jx = columns.column(B::torque_j_x);
-  double* jy = columns.column(B::torque_j_y);
-  double* jz = columns.column(B::torque_j_z);
+  const auto [mx, my, mz] = columns.vectors(B::torque_x);
+  const auto [ix, iy, iz] = columns.mutable_vectors(B::torque_i_x);
+  const auto [jx, jy, jz] = columns.mutable_vectors(B::torque_j_x);
   const std::size_t n = padded(count);
   const double couple = has_couple ? 1.0 : 0.0;
 #pragma omp simd

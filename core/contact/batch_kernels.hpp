@@ -36,6 +36,14 @@ struct PairView {
   std::size_t count = 0;
 };
 
+/// Pairs that are looked at, and closer than touch + `range` [m] taken.
+struct GatherInput {
+  const RowView& rows;
+  const Images& images;
+  const PairView& pairs;
+  double range = 0.0;
+};
+
 /// Rows of a tile's force buffer where what a pair does to its two sides is gathered.
 struct Places {
   std::int32_t a = 0;
@@ -45,12 +53,11 @@ struct Places {
 /// Rows up to the padded count repeat the last one, in the columns from `first` to `last`.
 void repeat_last(BatchColumns& columns, std::size_t count, int first, int last);
 
-/// Finds pairs from entry `next` up to `end` that are closer than touch + `range` [m] until a batch
-/// is full, loads them into the first columns and writes their numbers to `contacts` (k_batch of
-/// them); rows up to the padded count repeat the last one. Moves `next` on and returns how many. A
-/// pair that parts loses its history. Brings near, too, what load_history and the next batch want.
-std::size_t gather_touching(const RowView& rows, const Images& images, const PairView& pairs,
-                            std::size_t& next, std::size_t end, double range,
+/// Finds pairs from entry `next` up to `end` that are near enough until a batch is full, loads them
+/// into the first columns and writes their numbers to `contacts` (k_batch of them); rows up to the
+/// padded count repeat the last one. Moves `next` on and returns how many. A pair that parts loses
+/// its history. Brings near, too, what load_history and the next batch want.
+std::size_t gather_touching(const GatherInput& in, std::size_t& next, std::size_t end,
                             std::int32_t* contacts, BatchColumns& columns);
 
 /// Overlap, normal, effective radius and mass, lever arms, the relative velocity of the contact

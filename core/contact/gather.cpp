@@ -123,16 +123,19 @@ struct PairSearch {
 /// numbers. Brings near what the contacts further on want. Looks at positions alone: many of a
 /// list's pairs do not touch, and their velocities would be loaded for nothing.
 template <bool is_periodic>
-__attribute__((always_inline)) inline std::size_t find_near(
-    const RowView& rows, const Images& images, const PairView& pairs, std::size_t& next,
-    std::size_t end, double range, std::int32_t* contacts, BatchColumns& columns) {
+__attribute__((always_inline)) inline std::size_t find_near(const GatherInput& in,
+                                                            std::size_t& next, std::size_t end,
+                                                            std::int32_t* contacts,
+                                                            BatchColumns& columns) {
   using B = BatchColumns;
-  const PairSearch search(rows, pairs);
+  const PairView& pairs = in.pairs;
+  const PairSearch search(in.rows, pairs);
+  const double range = in.range;
   const std::size_t last_four = pairs.count < 4 ? 0 : pairs.count - 4;
   double* const separation_x = columns.column(B::separation_x);
   double* const separation_y = columns.column(B::separation_y);
   double* const separation_z = columns.column(B::separation_z);
-  const Separation<is_periodic> separate(images);
+  const Separation<is_periodic> separate(in.images);
   std::size_t found = 0;
   const auto look_at = [&](std::size_t p, const std::int32_t* a, const std::int32_t* b,
                            std::size_t lanes) __attribute__((always_inline)) {
@@ -151,7 +154,7 @@ __attribute__((always_inline)) inline std::size_t find_near(
   };
   std::size_t p = next;
   for (; p + 4 <= end && found + 4 <= k_batch; p += 4) {
-    search.expect_pairs(rows, std::min(p + k_ahead, last_four), p);
+    search.expect_pairs(in.rows, std::min(p + k_ahead, last_four), p);
     look_at(p, search.a + p, search.b + p, 4);
   }
   if (p < end && p + 4 > end && found + 4 <= k_batch) {
@@ -239,17 +242,21 @@ __attribute__((always_inline)) inline void load_motions(const RowView& rows, con
 }
 
 template <bool is_periodic>
-__attribute__((always_inline)) inline std::size_t load_persistent(
-    const RowView& rows, const Images& images, const PairView& pairs, std::size_t first,
-    std::size_t count, double range, BatchColumns& columns) {
+__attribute__((always_inline)) inline std::size_t load_persistent(const GatherInput& in,
+                                                                  std::size_t first,
+                                                                  std::size_t count,
+                                                                  BatchColumns& columns) {
   using B = BatchColumns;
-  const RowView r = rows;  // a copy: the bytes of is_touching may alias whatever stands in memory
+  // Copies: the bytes of is_touching may alias whatever stands in memory.
+  const RowView r = in.rows;
+  const PairView pairs = in.pairs;
+  const double range = in.range;
   const std::int32_t* const pa = pairs.a + first;
   const std::int32_t* const pb = pairs.b + first;
   std::uint8_t* const is_touching = pairs.is_touching + first;
   const std::size_t last_four = pairs.count - first - 4;
   double* const c = columns.column(0);
-  const Separation<is_periodic> separate(images);
+  const Separation<is_periodic> separate(in.images);
   std::size_t near = 0;
   for (std::size_t q = 0; q < count; q += 4) {
     const std::size_t later = std::min(q + k_ahead, last_four);
@@ -270,16 +277,13 @@ __attribute__((always_inline)) inline std::size_t load_persistent(
   return near;
 }
 
-DUST_KERNEL std::size_t persistent_open(const RowView& rows, const Images& images,
-                                        const PairView& pairs, std::size_t first, std::size_t count,
-                                        double range, BatchColumns& columns) {
-  return load_persistent<false>(rows, images, pairs, first, count, range, columns);
+DUST_KERNEL std::size_t persistent_open(const GatherInput& in, std::size_t first, std::size_t count,
+                                        BatchColumns& columns) {
+  return load_persistent<false>(in, first, count, columns);
 }
-DUST_KERNEL std::size_t persistent_periodic(const RowView& rows, const Images& images,
-                                            const PairView& pairs, std::size_t first,
-                                            std::size_t count, double range,
-                                            BatchColumns& columns) {
-  return load_persistent<true>(rows, images, pairs, first, count, range, columns);
+DUST_KERNEL std::size_t persistent_periodic(const GatherInput& in, std::size_t first,
+                                            std::size_t count, BatchColumns& columns) {
+  return load_persistent<true>(in, first, count, columns);
 }
 
 [[nodiscard]] bool has_images(const Images& images) {
@@ -287,44 +291,34 @@ DUST_KERNEL std::size_t persistent_periodic(const RowView& rows, const Images& i
 }
 
 template <bool is_periodic>
-__attribute__((always_inline)) inline std::size_t gather(const RowView& rows, const Images& images,
-                                                         const PairView& pairs, std::size_t& next,
-                                                         std::size_t end, double range,
-                                                         std::int32_t* contacts,
+__attribute__((always_inline)) inline std::size_t gather(const GatherInput& in, std::size_t& next,
+                                                         std::size_t end, std::int32_t* contacts,
                                                          BatchColumns& columns) {
-  const std::size_t found =
-      find_near<is_periodic>(rows, images, pairs, next, end, range, contacts, columns);
-  if (found > 0) load_motions(rows, pairs, contacts, found, columns);
+  const std::size_t found = find_near<is_periodic>(in, next, end, contacts, columns);
+  if (found > 0) load_motions(in.rows, in.pairs, contacts, found, columns);
   return found;
 }
 
 // A box without periodic sides need not look for images.
-DUST_KERNEL std::size_t gather_open(const RowView& rows, const Images& images,
-                                    const PairView& pairs, std::size_t& next, std::size_t end,
-                                    double range, std::int32_t* contacts, BatchColumns& columns) {
-  return gather<false>(rows, images, pairs, next, end, range, contacts, columns);
+DUST_KERNEL std::size_t gather_open(const GatherInput& in, std::size_t& next, std::size_t end,
+                                    std::int32_t* contacts, BatchColumns& columns) {
+  return gather<false>(in, next, end, contacts, columns);
 }
-DUST_KERNEL std::size_t gather_periodic(const RowView& rows, const Images& images,
-                                        const PairView& pairs, std::size_t& next, std::size_t end,
-                                        double range, std::int32_t* contacts,
-                                        BatchColumns& columns) {
-  return gather<true>(rows, images, pairs, next, end, range, contacts, columns);
+DUST_KERNEL std::size_t gather_periodic(const GatherInput& in, std::size_t& next, std::size_t end,
+                                        std::int32_t* contacts, BatchColumns& columns) {
+  return gather<true>(in, next, end, contacts, columns);
 }
 
 }  // namespace
 
-std::size_t gather_touching(const RowView& rows, const Images& images, const PairView& pairs,
-                            std::size_t& next, std::size_t end, double range,
+std::size_t gather_touching(const GatherInput& in, std::size_t& next, std::size_t end,
                             std::int32_t* contacts, BatchColumns& columns) {
-  return (has_images(images) ? gather_periodic : gather_open)(rows, images, pairs, next, end, range,
-                                                              contacts, columns);
+  return (has_images(in.images) ? gather_periodic : gather_open)(in, next, end, contacts, columns);
 }
 
-std::size_t gather_persistent(const RowView& rows, const Images& images, const PairView& pairs,
-                              std::size_t first, std::size_t count, double range,
+std::size_t gather_persistent(const GatherInput& in, std::size_t first, std::size_t count,
                               BatchColumns& columns) {
-  return (has_images(images) ? persistent_periodic : persistent_open)(rows, images, pairs, first,
-                                                                      count, range, columns);
+  return (has_images(in.images) ? persistent_periodic : persistent_open)(in, first, count, columns);
 }
 
 DUST_KERNEL void load_history(const PairView& pairs, const std::int32_t* contacts,

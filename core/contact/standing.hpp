@@ -10,11 +10,9 @@ namespace dust::contact {
 void rows_to_columns(double* block, std::size_t count, std::size_t stride);
 void columns_to_rows(double* block, std::size_t count, std::size_t stride);
 
-/// Loads pairs [first, first + count) into the first columns and tells in `is_touching` which are
-/// closer than touch + `range` [m]. Returns how many are. `count` as above. Brings near what the
-/// pairs further on want.
-std::size_t gather_persistent(const RowView& rows, const Images& images, const PairView& pairs,
-                              std::size_t first, std::size_t count, double range,
+/// Loads pairs [first, first + count) into the first columns and marks in `is_touching` which are
+/// near enough. Returns how many are. `count` as above. Brings near what the pairs further on want.
+std::size_t gather_persistent(const GatherInput& in, std::size_t first, std::size_t count,
                               BatchColumns& columns);
 
 /// Pairs that have parted are shown to the laws without overlap or motion: none has to expect what

@@ -65,6 +65,7 @@ struct Coupling::Impl {
   ParticleStates states;
   VoidFractionField void_fraction;
   FaceVoidFraction face_void;
+  CouplingScene scene;
   SelfDisturbance self;
   SizeRatios size_ratios;
   DragLinearisation linearisation;
@@ -89,14 +90,15 @@ Coupling::Impl::Impl(const scenario::Setup& setup, const scenario::FluidSpec& fl
       voidage(rule),
       void_fraction(lattice, rule),
       face_void(lattice),
+      scene{lattice, rule, drag, face_void, void_fraction, states},
       self(fluid.is_one_way ? scenario::DisturbanceCorrection::felt : fluid.disturbance_correction,
-           lattice, rule, drag, face_void, void_fraction, states),
+           scene),
       size_ratios(lattice),
-      linearisation(lattice, rule, drag, void_fraction, self, states,
+      linearisation(scene, self,
                     {fluid.initial_velocity.x, fluid.initial_velocity.y, fluid.initial_velocity.z},
                     order_of(fluid)),
       exchange(lattice, face_void, rule, drag.momentum_set()),
-      sampler(lattice, rule, drag.momentum_set(), void_fraction, face_void, self, states),
+      sampler(scene, self),
       relaxation(drag, self, states, setup.gravity),
       schedule(setup.time.fluid_step, least_edge(grid)),
       is_one_way(fluid.is_one_way),
@@ -125,9 +127,8 @@ void Coupling::use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
   Impl& s = *impl_;
   s.lattice.walls().use(surfaces);
   if (forces.empty()) return;
-  s.forces = std::make_unique<ForceModels>(forces, std::move(surfaces), s.lattice,
-                                           s.drag.properties(), s.relaxation.gravity(),
-                                           s.drag.momentum_set(), s.drag.graining());
+  s.forces = std::make_unique<ForceModels>(forces, std::move(surfaces), s.lattice, s.drag,
+                                           s.relaxation.gravity());
   s.states.add_columns(s.forces->state_columns());
   s.sampler.sample_stress();
   s.relaxation.use(*s.forces);
@@ -181,10 +182,10 @@ void Coupling::deposit(const particles::GrainRows& grains) {
   const double limit = s.voidage.largest_diameter_over_spacing();
   if (counts.largest_ratio > limit * (1.0 + k_ratio_rounding)) {
     const std::size_t row = counts.largest_row;
-    throw sdk::ModelError(
-        text("grain ", grains.id[row], " of diameter ", 2.0 * grains.position[4 * row + 3],
-             " m is too large for cells of ", least_edge(s.lattice.grid()),
-             " m: the voidage rule is valid for D/dx up to ", limit, "; use fewer cells"));
+    throw sdk::ModelError(text("grain ", grains.id[row], " of diameter ", grains.diameter(row),
+                               " m is too large for cells of ", least_edge(s.lattice.grid()),
+                               " m: the voidage rule is valid for D/dx up to ", limit,
+                               "; use fewer cells"));
   }
   CouplingReport& report = s.report;
   report.moved_shares += counts.moved_shares;
@@ -217,9 +218,9 @@ AssembledDrag Coupling::begin_step(const particles::GrainRows& all, double fluid
   s.exchange.resize(here.size());
   here.for_batches([&](std::size_t batch, FaceStencils::Rows rows) {
     LinearisedDrag drag;
-    const StencilBatch& stencils = here.locate(s.lattice, grains, batch);
-    s.linearisation.evaluate(grains, rows, stencils, batch, fluid_step, drag);
-    s.exchange.assemble(grains, here, batch, drag, s.states, eps, fluid_step);
+    const ParticleBatch particles{grains, rows, here.locate(s.lattice, grains, batch)};
+    s.linearisation.evaluate(particles, batch, fluid_step, drag);
+    s.exchange.assemble(particles, batch, drag, s.states, eps, fluid_step);
   });
   s.report.unpaired_forces +=
       s.exchange.scatter(here, s.states, eps, fluid_step, s.stress_balance.get());
@@ -295,8 +296,8 @@ void Coupling::relax(FaceStencils& stencils, const particles::GrainRows& grains,
     const StencilBatch& here = stencils.locate(s.lattice, sided, batch, 0.5 * held);
     SampledFlow flow;
     DragColumns columns;
-    s.sampler.sample(sided, rows, here, fluid, flow, columns);
-    s.relaxation.update(grains, rows, fluid, flow, held, last_held, columns);
+    s.sampler.sample({sided, rows, here}, fluid, flow, columns);
+    s.relaxation.update({grains, rows, here}, fluid, flow, {held, last_held}, columns);
   });
   if (s.forces) s.forces->end(fluid);
   s.schedule.note(held);

@@ -46,14 +46,13 @@ struct ForceModels::Columns {
 
 ForceModels::ForceModels(std::span<const std::unique_ptr<sdk::FluidForce>> models,
                          std::vector<particles::Surface> surfaces, const Lattice& lattice,
-                         const fluid::Properties& properties, sdk::Vec3 gravity,
-                         fluid::MomentumSet set, const CoarseGraining& graining)
+                         const DragModel& drag, sdk::Vec3 gravity)
     : surfaces_(std::move(surfaces)),
       lattice_(lattice),
-      properties_(properties),
+      properties_(drag.properties()),
       gravity_(gravity),
-      set_(set),
-      graining_(graining),
+      set_(drag.momentum_set()),
+      graining_(drag.graining()),
       width_(k_first_history) {
   for (const auto& model : models) {
     const sdk::FluidForceNeeds needs = model->needs();
@@ -142,15 +141,14 @@ void ForceModels::gather(const particles::GrainRows& grains, const Batch& batch,
                          const FluidState& fluid, ParticleStates& memory, Columns& c) const {
   for (std::size_t n = 0; n < batch.rows.size(); ++n) {
     const auto row = static_cast<std::size_t>(batch.rows[n]);
-    const double* x = grains.position + 4 * row;
     const double* v = grains.velocity_of(row);
     const double* w = grains.rotation_of(row);
-    const sdk::Vec3 centre{x[0], x[1], x[2]};
+    const sdk::Vec3 centre = grains.centre(row);
     const fluid::Properties::Values own =
         properties_.is_uniform() ? properties_.own() : properties_.at(centre);
     const double l = graining_.of(grains, row);
-    c.diameter[n] = 2.0 * x[3] / l;
-    c.mass[n] = 1.0 / (v[3] * (l * l * l));
+    c.diameter[n] = grains.diameter(row) / l;
+    c.mass[n] = 1.0 / (grains.inverse_mass(row) * (l * l * l));
     c.density[n] = own.density;
     c.viscosity[n] = own.viscosity;
     set(c.rotation, n, sdk::Vec3{w[0], w[1], w[2]});
@@ -177,7 +175,7 @@ void ForceModels::gather(const particles::GrainRows& grains, const Batch& batch,
       }
     }
     if (needs_.stresses) {
-      const Place p = lattice_.place(x);
+      const Place p = lattice_.place(grains.position_of(row));
       Triple gradient{};
       Triple viscous{};
       for (int d = 0; d < 3; ++d) {
@@ -188,7 +186,7 @@ void ForceModels::gather(const particles::GrainRows& grains, const Batch& batch,
       set(c.pressure_gradient, n, gradient);
       set(c.viscous_stress, n, viscous);
     }
-    if (needs_.wall_reach > 0.0) find_wall(centre, x[3], fluid.time, n, c);
+    if (needs_.wall_reach > 0.0) find_wall(centre, grains.radius(row), fluid.time, n, c);
   }
 }
 
@@ -199,8 +197,8 @@ void ForceModels::note_contact(const particles::GrainRows& grains, std::size_t r
   const double* v = grains.velocity_of(row);
   const double* impulse = grains.fluid_impulse + 4 * row;
   const double last = numbers[k_held];
-  const double mass = 1.0 / v[3];
-  const double share = weight_share(mass, sdk::sphere_volume(2.0 * grains.position[4 * row + 3]));
+  const double mass = grains.mass(row);
+  const double share = weight_share(mass, sdk::sphere_volume(grains.diameter(row)));
   for (std::size_t d = 0; d < 3; ++d) {
     acceleration[d] = 0.0;
     if (last > 0.0) {

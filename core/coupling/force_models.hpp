@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coupling/coarse_graining.hpp"
+#include "coupling/drag/drag_model.hpp"
 #include "coupling/fluid_state.hpp"
 #include "coupling/particle_states.hpp"
 #include "coupling/stencils/lattice.hpp"
@@ -43,10 +43,10 @@ class ForceModels {
     sdk::VectorColumns stress{};  ///< [N/m3] -grad p + div tau, in every set
   };
 
+  /// `lattice` and `drag` are kept by reference.
   ForceModels(std::span<const std::unique_ptr<sdk::FluidForce>> models,
               std::vector<particles::Surface> surfaces, const Lattice& lattice,
-              const fluid::Properties& properties, sdk::Vec3 gravity, fluid::MomentumSet set,
-              const CoarseGraining& graining);
+              const DragModel& drag, sdk::Vec3 gravity);
 
   /// Forces that the models give in place of the core.
   [[nodiscard]] const sdk::FluidForceParts& taken() const { return taken_; }

@@ -6,8 +6,8 @@
 namespace dust::coupling {
 namespace {
 
-/// Numbers of a ParticleState that outlive a fluid step: velocity of the fluid, place, debt, own
-/// velocity.
+/// Numbers of a ParticleState that outlive a fluid step: velocity of the fluid, place, residual,
+/// own velocity.
 constexpr std::size_t k_saved = 13;
 /// Numbers of an SelfFlow that do: the flow.
 constexpr std::size_t k_saved_flow = 3 * self_disturbance::k_groups;

@@ -12,15 +12,14 @@ void SizeRatios::find(const particles::GrainRows& grains, const CoarseGraining& 
                       ParticleStates& states) {
   sums_.assign(lattice_.grid().size, {0.0, 0.0});
   for (std::size_t row = 0; row < grains.count; ++row) {
-    const double diameter = 2.0 * grains.position[4 * row + 3];
-    std::array<double, 2>& sums = sums_[cell_of(grains.position + 4 * row)];
+    const double diameter = grains.diameter(row);
+    std::array<double, 2>& sums = sums_[cell_of(grains.position_of(row))];
     sums[0] += grains.weight[row] * diameter * diameter * diameter;
     sums[1] += grains.weight[row] * diameter * diameter * graining.of(grains, row);
   }
   for (std::size_t row = 0; row < grains.count; ++row) {
-    const std::array<double, 2>& sums = sums_[cell_of(grains.position + 4 * row)];
-    states[row].size_ratio =
-        2.0 * grains.position[4 * row + 3] / graining.of(grains, row) * sums[1] / sums[0];
+    const std::array<double, 2>& sums = sums_[cell_of(grains.position_of(row))];
+    states[row].size_ratio = grains.diameter(row) / graining.of(grains, row) * sums[1] / sums[0];
   }
 }
 

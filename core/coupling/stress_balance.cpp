@@ -46,7 +46,7 @@ void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now
 /// The components from `first` to `end`.
 void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now,
                             std::span<const Triple> impulse, std::size_t first, std::size_t end) {
-  MultiCellKernel wide(lattice_, rule_);
+  MultiCellKernel multi_cell(lattice_, rule_);
   // Particles of one cell come one after another: its residual stays in the registers meanwhile.
   std::ptrdiff_t cell = -1;
   Triple deferred{};
@@ -61,12 +61,11 @@ void StressBalance::receive(const FaceStencils& stencils, FaceStencils::Rows now
     for (std::size_t q = 0; q < batch.count; ++q) {
       if (rows[q] < 0) continue;
       const Triple& received = impulse[static_cast<std::size_t>(rows[q])];
-      const double* position = &batch.position[4 * q];
-      if (wide.takes(position[3])) {
+      if (multi_cell.takes(batch.radius(q))) {
         put_back();
         cell = -1;
-        wide.set(position, position[3]);
-        for (const MultiCellKernel::Share& share : wide.shares()) {
+        multi_cell.set(batch.position_of(q), batch.radius(q));
+        for (const MultiCellKernel::Share& share : multi_cell.shares()) {
           for (std::size_t d = first; d < end; ++d) {
             deferred_[d][share.cell] -= share.weight * received[d];
           }

@@ -47,7 +47,7 @@ void VoidFractionField::spread(const particles::GrainRows& grains, std::size_t f
   const double least_spacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
   double largest_radius = 0.0;
   for (std::size_t row = first; row < last; ++row) {
-    const double radius = grains.position[4 * row + 3];
+    const double radius = grains.radius(row);
     if (radius > largest_radius) {
       largest_radius = radius;
       counts.largest_row = row;
@@ -62,11 +62,11 @@ void VoidFractionField::spread(const particles::GrainRows& grains, std::size_t f
     const sdk::VoidageBatch batch =
         batch_of(columns, std::min(rows_per_call, last - row), capacity);
     for (std::size_t g = 0; g < batch.count; ++g) {
-      const double* p = grains.position + 4 * (row + g);
+      const double* p = grains.position_of(row + g);
       columns.x[g] = p[0];
       columns.y[g] = p[1];
       columns.z[g] = p[2];
-      columns.radius[g] = p[3];
+      columns.radius[g] = grains.radius(row + g);
     }
     rule_.spread(grid.shape(), batch);
     take_shares(grains, row, batch, shares, counts);
@@ -79,8 +79,7 @@ void VoidFractionField::take_shares(const particles::GrainRows& grains, std::siz
                                     Counts& counts) const {
   for (std::size_t g = 0; g < batch.count; ++g) {
     const std::size_t row = first + g;
-    const double volume =
-        grains.weight[row] * sdk::sphere_volume(2.0 * grains.position[4 * row + 3]);
+    const double volume = grains.weight[row] * sdk::sphere_volume(grains.diameter(row));
     const std::size_t begin = g * static_cast<std::size_t>(batch.capacity);
     const std::size_t own = shares.size();
     double open_weight = 0.0;
@@ -103,7 +102,7 @@ void VoidFractionField::take_shares(const particles::GrainRows& grains, std::siz
       continue;
     }
     shares.resize(own);
-    const std::ptrdiff_t cell = lattice_.nearest_open_cell(grains.position + 4 * row);
+    const std::ptrdiff_t cell = lattice_.nearest_open_cell(grains.position_of(row));
     if (cell >= 0) {
       shares.push_back({cell, volume});
     } else {

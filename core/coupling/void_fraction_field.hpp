@@ -42,13 +42,13 @@ class VoidFractionField {
   void keep_solids(const std::vector<double>& solids);
   [[nodiscard]] const fluid::CellField& before() const { return before_.eps; }
   [[nodiscard]] const fluid::CellField& after() const { return after_.eps; }
-  /// Void fraction that a particle in the cell `own` has around it; sets `wide` for one larger
-  /// than a cell.
+  /// Void fraction that a particle in the cell `own` has around it, by its row of position and
+  /// radius; sets `multi_cell` for one larger than a cell.
   [[nodiscard]] double around(const double* position, std::ptrdiff_t own,
-                              MultiCellKernel& wide) const {
-    if (!wide.takes(position[3])) return after()[lattice_.host_cell(own, position)];
-    wide.set(position, position[3]);
-    return std::min(1.0, wide.mean(after()));  // weights sum to 1 but for rounding
+                              MultiCellKernel& multi_cell) const {
+    if (!multi_cell.takes(position[3])) return after()[lattice_.host_cell(own, position)];
+    multi_cell.set(position, position[3]);
+    return std::min(1.0, multi_cell.mean(after()));  // weights sum to 1 but for rounding
   }
   /// Cells in which after() may differ from 1.
   [[nodiscard]] const std::vector<std::ptrdiff_t>& filled_cells() const { return after_.active; }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dust/sdk/vec3.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
 namespace dust::particles {
 
 /// The grains as the DEM holds them: rows of four doubles in row order. Valid until the next
-/// insertion, removal or neighbour rebuild.
+/// insertion, removal or neighbour rebuild. What else a row holds in its fourth column is asked for
+/// by name.
 struct GrainRows {
   std::size_t count = 0;
   const double* position = nullptr;  ///< x, y, z [m], radius [m]
@@ -32,9 +35,18 @@ struct GrainRows {
   /// the grain: the velocity of the fluid at it [m/s], and K [kg/s] of its drag alone.
   double* wind = nullptr;
 
+  [[nodiscard]] const double* position_of(std::size_t row) const { return position + 4 * row; }
+  [[nodiscard]] sdk::Vec3 centre(std::size_t row) const {
+    const double* x = position_of(row);
+    return {x[0], x[1], x[2]};
+  }
+  [[nodiscard]] double radius(std::size_t row) const { return position_of(row)[3]; }
+  [[nodiscard]] double diameter(std::size_t row) const { return 2.0 * radius(row); }
   [[nodiscard]] const double* velocity_of(std::size_t row) const {
     return velocity + motion_stride * row;
   }
+  [[nodiscard]] double inverse_mass(std::size_t row) const { return velocity_of(row)[3]; }
+  [[nodiscard]] double mass(std::size_t row) const { return 1.0 / inverse_mass(row); }
   [[nodiscard]] const double* rotation_of(std::size_t row) const {
     return rotation + motion_stride * row;
   }

@@ -78,19 +78,18 @@ void TileStep::apply_impulses(const StepScene& scene, Tile tile, Selection selec
   }
 }
 
-/// Takes what contacts have dissipated out of rows of forces that are complete: where particles
-/// move, the fourth and eighth numbers are zero. Rows of `force` stand by particle from `first` on,
-/// or, if that is negative, in the order of `particles`.
+/// Takes what contacts have dissipated out of rows of forces that are complete: zeros stay there.
+/// place_of(k) is the row of the k-th of `particles`.
+template <class PlaceOf>
 void TileStep::take_work(const StepScene& scene, std::span<const std::int32_t> particles,
-                         double* force, std::int32_t first) {
+                         double* force, const PlaceOf& place_of) {
   ContactWork* const work = scene.contacts.work;
   if (work == nullptr) return;
   for (std::size_t k = 0; k < particles.size(); ++k) {
     const auto row = static_cast<std::size_t>(particles[k]);
-    double* f =
-        force + k_force_row * (first < 0 ? k : static_cast<std::size_t>(particles[k] - first));
-    work->add_with_particles(row, f[3], f[7]);
-    f[3] = f[7] = 0.0;
+    double* f = force + k_force_row * static_cast<std::size_t>(place_of(k));
+    work->add_with_particles(row, f[k_normal_work], f[k_tangential_work]);
+    f[k_normal_work] = f[k_tangential_work] = 0.0;
     work->note_acceleration(row,
                             norm(sdk::Vec3{f[0], f[1], f[2]}) * scene.particles.inverse_mass(row));
   }
@@ -115,7 +114,8 @@ void TileStep::move_all(const StepScene& scene, Tile tile, ForceBuffer& force) {
   const ActiveSet& active = active_of(scene, tile);
   apply_impulses(scene, tile, Selection::all);
   deferred_.clear(tile.index);
-  take_work(scene, active.all(), force.rows(), tile.begin);
+  take_work(scene, active.all(), force.rows(),
+            [&](std::size_t k) { return active.all()[k] - tile.begin; });
   with_energy(scene, tile, active.all(), [&] {
     if (active.size() == tile.size()) {
       integrate_tile(scene.motion, tile, force.rows(), scene.step());
@@ -130,7 +130,8 @@ void TileStep::move_all(const StepScene& scene, Tile tile, ForceBuffer& force) {
 void TileStep::move_unshared(const StepScene& scene, Tile tile, ForceBuffer& force) {
   const ActiveSet& active = active_of(scene, tile);
   apply_impulses(scene, tile, Selection::unshared);
-  take_work(scene, active.unshared(), force.rows(), tile.begin);
+  take_work(scene, active.unshared(), force.rows(),
+            [&](std::size_t k) { return active.unshared()[k] - tile.begin; });
   with_energy(scene, tile, active.unshared(), [&] {
     integrate_in_tile(scene.motion, tile, active.unshared(), force.rows(), scene.step());
   });
@@ -142,7 +143,7 @@ void TileStep::move_deferred(const StepScene& scene, Tile tile) {
   const std::size_t moved = deferred_.moved(tile.index);
   apply_impulses(scene, tile, moved == 0 ? Selection::all : Selection::shared);
   const std::span<const std::int32_t> rows = active.all().subspan(moved);
-  take_work(scene, rows, deferred_.rows(tile.index).data(), -1);
+  take_work(scene, rows, deferred_.rows(tile.index).data(), [](std::size_t k) { return k; });
   with_energy(scene, tile, rows, [&] {
     integrate_in_order(scene.motion, rows, deferred_.rows(tile.index).data(), scene.step());
   });

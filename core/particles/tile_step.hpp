@@ -81,8 +81,9 @@ class TileStep {
   void move_all(const StepScene& scene, Tile tile, ForceBuffer& force);
   void move_unshared(const StepScene& scene, Tile tile, ForceBuffer& force);
   void move_deferred(const StepScene& scene, Tile tile);
+  template <class PlaceOf>
   static void take_work(const StepScene& scene, std::span<const std::int32_t> particles,
-                        double* force, std::int32_t first);
+                        double* force, const PlaceOf& place_of);
   template <class Move>
   static void with_energy(const StepScene& scene, Tile tile, std::span<const std::int32_t> rows,
                           Move&& move);

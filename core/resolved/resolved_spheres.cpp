@@ -83,8 +83,8 @@ void ResolvedSpheres::begin_step(const GrainRows& grains, const fluid::FaceField
                             " stands for several and cannot be resolved: take its material out of "
                             "coupling.resolved, or emit it with the weight 1");
     }
-    spheres.push_back({id, vector_of(grains.position + 4 * row), vector_of(grains.velocity_of(row)),
-                       vector_of(grains.rotation_of(row)), grains.position[4 * row + 3]});
+    spheres.push_back({id, grains.centre(row), vector_of(grains.velocity_of(row)),
+                       vector_of(grains.rotation_of(row)), grains.radius(row)});
     states.push_back(state_of(spheres.back(), velocity));
     forces.push_back(std::move(states.back().forces));
     const double cells =
@@ -125,13 +125,13 @@ void ResolvedSpheres::act(const GrainRows& grains, const Turn& turn) {
   const double relaxed = -std::expm1(-k_relaxed);
   each_row(grains, [&](std::size_t row, State& state, std::size_t) {
     const double* velocity = grains.velocity_of(row);
-    const double inverse_mass = velocity[3];
+    const double inverse_mass = grains.inverse_mass(row);
     double* action = grains.drag_relaxation + 4 * row;
     for (int d = 0; d < 3; ++d) {
       action[d] = velocity[d] + state.due.linear[d] * inverse_mass / relaxed;
     }
     action[3] = rate;
-    const double radius = grains.position[4 * row + 3];
+    const double radius = grains.radius(row);
     const Vec3 alone = (2.5 * inverse_mass / (radius * radius)) * state.due.angular;
     const double held =
         k_virtual_inertia * around_.density * sdk::sphere_volume(2.0 * radius) * inverse_mass;

@@ -26,7 +26,7 @@ const GrainRows& UnresolvedRows::take(const GrainRows& all,
   for (std::size_t n = 0; n < all.count; ++n) {
     if (is_resolved(all.material[n])) continue;
     row_.push_back(n);
-    append(position_, all.position + 4 * n);
+    append(position_, all.position_of(n));
     append(velocity_, all.velocity_of(n));
     append(rotation_, all.rotation_of(n));
     append(action_, all.drag_relaxation + 4 * n);

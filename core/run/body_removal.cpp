@@ -28,9 +28,9 @@ double kinetic_energy_per_grain(const particles::GrainRows& rows) {
   for (std::size_t n = 0; n < rows.count; ++n) {
     const double* v = rows.velocity_of(n);
     const double* w = rows.rotation_of(n);
-    const double r = rows.position[4 * n + 3];
-    const double inertia = 0.4 * r * r / v[3];
-    const double energy = 0.5 / v[3] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) +
+    const double r = rows.radius(n);
+    const double inertia = 0.4 * r * r / rows.inverse_mass(n);
+    const double energy = 0.5 / rows.inverse_mass(n) * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) +
                           0.5 * inertia * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
     sum += rows.weight[n] * energy;
     grains += rows.weight[n];

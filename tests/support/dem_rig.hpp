@@ -149,7 +149,7 @@ inline GrainState grain(particles::Dem& dem, std::int64_t id) {
   const auto rows = dem.rows();
   for (std::size_t n = 0; n < rows.count; ++n) {
     if (rows.id[n] != id) continue;
-    const double* p = rows.position + 4 * n;
+    const double* p = rows.position_of(n);
     const double* v = rows.velocity_of(n);
     const double* w = rows.rotation_of(n);
     return {{p[0], p[1], p[2]}, {v[0], v[1], v[2]}, {w[0], w[1], w[2]}, p[3],

@@ -57,59 +57,57 @@ void DragExchange::clear(int d) {
 
 void DragExchange::resize(std::size_t batches) { batches_.resize(batches); }
 
-void DragExchange::assemble(const particles::GrainRows& grains, const FaceStencils& stencils,
-                            std::size_t number, const LinearisedDrag& drag, ParticleStates& states,
+void DragExchange::assemble(const ParticleBatch& particles, std::size_t number,
+                            const LinearisedDrag& drag, ParticleStates& states,
                             const fluid::CellField& eps, double step) {
-  const std::span<const std::int32_t> rows = stencils.rows(number);
-  const StencilBatch& here = stencils[number];
+  const StencilBatch& here = particles.here;
   BatchContributions& batch = batches_[number];
-  StencilBatch::Reals coefficient;
-  std::array<ContributionInputs, 3> inputs;
-  begin_batch(grains, rows, here, drag, states, step, coefficient, inputs, batch);
+  BatchInputs inputs;
+  begin_batch(particles, drag, states, step, inputs, batch);
   for (int d = 0; d < 3; ++d) {
-    ContributionInputs& input = inputs[d];
-    input.coefficient = coefficient.data();
+    ContributionInputs& input = inputs.component[d];
+    input.coefficient = inputs.coefficient.data();
     sum_faces(here, d, face_void_.columns(d), {input.open.data(), input.fluid.data()});
-    if (batch.has_wide) sum_wide(here, d, eps, input);
+    if (batch.has_multi_cell) sum_multi_cell(here, d, eps, input);
   }
-  if (batch.has_smooth) assemble_smooth(rows, here, drag, states, inputs, batch);
+  if (batch.has_smooth) assemble_smooth(particles, drag, states, inputs.component, batch);
   const bool is_density = set_ == fluid::MomentumSet::three;
   for (int d = 0; d < 3; ++d) {
-    find_contributions(rows.size(), inputs[d], k_min_weight, is_density, batch.component[d]);
+    find_contributions(particles.size(), inputs.component[d], k_min_weight, is_density,
+                       batch.component[d]);
   }
-  release(rows, inputs, states, batch);
+  release(particles.rows, inputs.component, states, batch);
 }
 
 /// The drag of each particle per cell volume, what its slip before takes back, and its residual.
-void DragExchange::begin_batch(const particles::GrainRows& grains,
-                               std::span<const std::int32_t> rows, const StencilBatch& here,
-                               const LinearisedDrag& drag, const ParticleStates& states,
-                               double step, StencilBatch::Reals& coefficient,
-                               std::array<ContributionInputs, 3>& inputs,
+void DragExchange::begin_batch(const ParticleBatch& particles, const LinearisedDrag& drag,
+                               const ParticleStates& states, double step, BatchInputs& inputs,
                                BatchContributions& batch) const {
+  const particles::GrainRows& grains = particles.grains;
   const double per_volume = 1.0 / lattice_.cell_volume();
   const double per_volume_and_step = per_volume / step;
-  const MultiCellKernel wide(lattice_, rule_);
+  const MultiCellKernel multi_cell(lattice_, rule_);
   batch.is_smooth = drag.is_smooth;
   batch.unpaired = 0;
-  batch.has_wide = batch.has_smooth = false;
+  batch.has_multi_cell = batch.has_smooth = false;
   batch.released = batch.given = batch.size = {};
-  for (std::size_t q = 0; q < rows.size(); ++q) {
-    const auto row = static_cast<std::size_t>(rows[q]);
+  for (std::size_t q = 0; q < particles.size(); ++q) {
+    const std::size_t row = particles.row(q);
     const double isolated = drag.void_fraction[q];
     const double slope = 1.0 + drag.slope[q];
-    coefficient[q] =
+    inputs.coefficient[q] =
         grains.weight[row] * drag.coefficient[q] * slope * per_volume / (isolated * isolated);
     const double back = isolated * drag.slope[q] / slope;
     const bool is_smooth = drag.is_smooth[q] != 0;
     batch.has_smooth = batch.has_smooth || is_smooth;
-    batch.has_wide = batch.has_wide || (!is_smooth && wide.takes(here.position[4 * q + 3]));
+    batch.has_multi_cell =
+        batch.has_multi_cell || (!is_smooth && multi_cell.takes(particles.here.radius(q)));
     for (std::size_t d = 0; d < 3; ++d) {
       const double v = grains.velocity_of(row)[d];
       batch.component[d].velocity[q] = v;
       batch.component[d].flux_difference[q] = back * (v - states[row].fluid_velocity[d]);
-      inputs[d].deferred[q] = states[row].deferred[d] * per_volume_and_step;
-      inputs[d].gain[q] = 1.0;
+      inputs.component[d].deferred[q] = states[row].deferred[d] * per_volume_and_step;
+      inputs.component[d].gain[q] = 1.0;
     }
   }
 }
@@ -131,15 +129,14 @@ void DragExchange::release(std::span<const std::int32_t> rows,
 }
 
 /// The sums over the faces of the grains that are larger than a cell.
-void DragExchange::sum_wide(const StencilBatch& stencils, int d, const fluid::CellField& eps,
-                            ContributionInputs& input) const {
-  MultiCellKernel wide(lattice_, rule_);
-  WideStencil many;
+void DragExchange::sum_multi_cell(const StencilBatch& stencils, int d, const fluid::CellField& eps,
+                                  ContributionInputs& input) const {
+  MultiCellKernel multi_cell(lattice_, rule_);
+  MultiCellStencil many;
   for (std::size_t q = 0; q < stencils.count; ++q) {
-    const double* position = &stencils.position[4 * q];
-    if (!wide.takes(position[3])) continue;
-    wide.set(position, position[3]);
-    wide.stencil(d, eps, many);
+    if (!multi_cell.takes(stencils.radius(q))) continue;
+    multi_cell.set(stencils.position_of(q), stencils.radius(q));
+    multi_cell.stencil(d, eps, many);
     const FaceSums faces = sums_of(many);
     input.open[q] = faces.open;
     input.fluid[q] = faces.fluid;
@@ -149,16 +146,16 @@ void DragExchange::sum_wide(const StencilBatch& stencils, int d, const fluid::Ce
 /// What changes for the grains with a SmoothKernel: the void fraction that makes a slip of the flux
 /// is that of SelfFlow, their own flow is no part of the slip, and the drag is spread such that its
 /// sum is K times that slip; docs/theory/own_disturbance.md, eq. (7).
-void DragExchange::assemble_smooth(std::span<const std::int32_t> rows, const StencilBatch& here,
-                                   const LinearisedDrag& drag, const ParticleStates& states,
+void DragExchange::assemble_smooth(const ParticleBatch& particles, const LinearisedDrag& drag,
+                                   const ParticleStates& states,
                                    std::array<ContributionInputs, 3>& inputs,
                                    BatchContributions& batch) const {
+  const StencilBatch& here = particles.here;
   SmoothKernel kernel(lattice_);
-  for (std::size_t q = 0; q < rows.size(); ++q) {
+  for (std::size_t q = 0; q < particles.size(); ++q) {
     if (drag.is_smooth[q] == 0) continue;
-    const SelfFlow& own = states.self_flow(static_cast<std::size_t>(rows[q]));
-    const double* position = &here.position[4 * q];
-    kernel.set(position, 2.0 * position[3]);
+    const SelfFlow& own = states.self_flow(particles.row(q));
+    kernel.set(here.position_of(q), 2.0 * here.radius(q));
     const double isolated = drag.void_fraction[q];
     for (int d = 0; d < 3; ++d) {
       const auto c = static_cast<std::size_t>(d);
@@ -231,13 +228,13 @@ void DragExchange::scatter_groups(int d, const StencilBatch& stencils,
 void DragExchange::scatter_component(int d, const FaceStencils& stencils,
                                      const fluid::CellField& eps) {
   const FaceColumns columns = face_void_.columns(d);
-  MultiCellKernel wide(lattice_, rule_);
-  WideStencil many;
+  MultiCellKernel multi_cell(lattice_, rule_);
+  MultiCellStencil many;
   SmoothKernel smooth(lattice_);
   for (std::size_t b = 0; b < stencils.size(); ++b) {
     const StencilBatch& batch = stencils[b];
     const FaceContributions& contributions = batches_[b].component[d];
-    if (has_large_groups(batch) && !batches_[b].has_wide && !batches_[b].has_smooth) {
+    if (has_large_groups(batch) && !batches_[b].has_multi_cell && !batches_[b].has_smooth) {
       scatter_groups(d, batch, contributions);
       continue;
     }
@@ -246,15 +243,14 @@ void DragExchange::scatter_component(int d, const FaceStencils& stencils,
                                       contributions.drag[q] * contributions.velocity[q],
                                       contributions.extra[q]};
       if (contribution.drag == 0.0 && contribution.extra == 0.0) continue;
-      const double* position = &batch.position[4 * q];
       if (batches_[b].is_smooth[q] != 0) {
-        smooth.set(position, 2.0 * position[3]);
+        smooth.set(batch.position_of(q), 2.0 * batch.radius(q));
         scatter_smooth(d, smooth, contribution);
         continue;
       }
-      if (wide.takes(position[3])) {
-        wide.set(position, position[3]);
-        wide.stencil(d, eps, many);
+      if (multi_cell.takes(batch.radius(q))) {
+        multi_cell.set(batch.position_of(q), batch.radius(q));
+        multi_cell.stencil(d, eps, many);
         scatter_one(d, many, contribution);
         continue;
       }
@@ -361,11 +357,11 @@ double DragExchange::drag_through(int d, const SmoothKernel& kernel, const std::
 double DragExchange::evaluate(const FaceStencils& stencils, std::span<const std::int32_t> rows,
                               ParticleStates& states, const fluid::CellField& eps,
                               const fluid::FaceField& velocity, double step) {
-  const double impulse = step * lattice_.cell_volume();
+  const FluidAfter after{eps, velocity, step * lattice_.cell_volume()};
   tbb::parallel_for(std::size_t{0}, stencils.size(), [&](std::size_t b) {
     const StencilBatch& here = stencils[b];
     Impulses given;
-    evaluate_batch(here, eps, velocity, impulse, batches_[b], given);
+    evaluate_batch(here, after, batches_[b], given);
     const std::span<const std::int32_t> own = rows.subspan(b * StencilBatch::k_size, here.count);
     for (std::size_t q = 0; q < here.count; ++q) {
       if (own[q] < 0) continue;
@@ -375,27 +371,25 @@ double DragExchange::evaluate(const FaceStencils& stencils, std::span<const std:
   return imbalance(velocity, step);
 }
 
-void DragExchange::evaluate_batch(const StencilBatch& here, const fluid::CellField& eps,
-                                  const fluid::FaceField& velocity, double impulse,
+void DragExchange::evaluate_batch(const StencilBatch& here, const FluidAfter& fluid,
                                   BatchContributions& batch, Impulses& given) const {
   SmoothKernel smooth(lattice_);
   const bool is_density = set_ == fluid::MomentumSet::three;
   batch.given = batch.size = {};
   for (int d = 0; d < 3; ++d) {
-    const std::vector<double>& u = velocity.component[d];
     const FaceContributions& own = batch.component[d];
-    evaluate_faces(here, d, face_void_.columns(d), u.data(), own, impulse, is_density,
-                   given[d].data());
-    if (batch.has_wide) evaluate_wide(here, d, eps, u, impulse, batch, given);
+    evaluate_faces(here, d, face_void_.columns(d), fluid.velocity.component[d].data(), own,
+                   fluid.impulse, is_density, given[d].data());
+    if (batch.has_multi_cell) evaluate_multi_cell(here, d, fluid, batch, given);
   }
   for (std::size_t q = 0; batch.has_smooth && q < here.count; ++q) {
     if (batch.is_smooth[q] == 0) continue;
-    smooth.set(&here.position[4 * q], 2.0 * here.position[4 * q + 3]);
+    smooth.set(here.position_of(q), 2.0 * here.radius(q));
     for (int d = 0; d < 3; ++d) {
       const FaceContributions& own = batch.component[d];
-      given[d][q] =
-          impulse * own.drag[q] *
-          drag_through(d, smooth, velocity.component[d], own.velocity[q], own.flux_difference[q]);
+      given[d][q] = fluid.impulse * own.drag[q] *
+                    drag_through(d, smooth, fluid.velocity.component[d], own.velocity[q],
+                                 own.flux_difference[q]);
     }
   }
   for (int d = 0; d < 3; ++d) {
@@ -407,24 +401,23 @@ void DragExchange::evaluate_batch(const StencilBatch& here, const fluid::CellFie
 }
 
 /// Component d of the particles larger than a cell.
-void DragExchange::evaluate_wide(const StencilBatch& here, int d, const fluid::CellField& eps,
-                                 const std::vector<double>& u, double impulse,
-                                 const BatchContributions& batch, Impulses& given) const {
+void DragExchange::evaluate_multi_cell(const StencilBatch& here, int d, const FluidAfter& after,
+                                       const BatchContributions& batch, Impulses& given) const {
+  const std::vector<double>& u = after.velocity.component[d];
   const FaceContributions& own = batch.component[d];
-  MultiCellKernel wide(lattice_, rule_);
-  WideStencil many;
+  MultiCellKernel multi_cell(lattice_, rule_);
+  MultiCellStencil many;
   for (std::size_t q = 0; q < here.count; ++q) {
-    const double radius = here.position[4 * q + 3];
-    if (!wide.takes(radius) || batch.is_smooth[q] != 0) continue;
-    wide.set(&here.position[4 * q], radius);
-    wide.stencil(d, eps, many);
+    if (!multi_cell.takes(here.radius(q)) || batch.is_smooth[q] != 0) continue;
+    multi_cell.set(here.position_of(q), here.radius(q));
+    multi_cell.stencil(d, after.eps, many);
     double sum = 0.0;
     for (std::size_t n = 0; n < size(many); ++n) {
       const double fluid = fluid::fluid_fraction(set_, many.void_fraction[n]);
       const double slip = many.void_fraction[n] * (u[many.storage[n]] - own.velocity[q]);
       sum += many.weight[n] * many.open[n] * fluid * (slip + own.flux_difference[q]);
     }
-    given[d][q] = impulse * own.drag[q] * sum;
+    given[d][q] = after.impulse * own.drag[q] * sum;
   }
 }
 

@@ -37,11 +37,10 @@ class DragExchange {
 
   /// Makes room for as many batches.
   void resize(std::size_t batches);
-  /// What each particle of a batch gives its faces, from the sums over these. Residuals reach
-  /// the fluid thereby.
-  void assemble(const particles::GrainRows& grains, const FaceStencils& stencils, std::size_t batch,
-                const LinearisedDrag& drag, ParticleStates& states, const fluid::CellField& eps,
-                double step);
+  /// What each particle of the batch of this `number` gives its faces, from the sums over these.
+  /// Residuals reach the fluid thereby.
+  void assemble(const ParticleBatch& particles, std::size_t number, const LinearisedDrag& drag,
+                ParticleStates& states, const fluid::CellField& eps, double step);
   /// Adds up at the faces what the batches give, the residuals of the particles that are gone, and
   /// part of those of cells (null: there are none). Returns the number of force components without
   /// an open face.
@@ -74,23 +73,33 @@ class DragExchange {
     std::array<FaceContributions, 3> component;
     std::array<char, StencilBatch::k_size> is_smooth;  ///< as LinearisedDrag
     std::int64_t unpaired = 0;
-    bool has_wide = false;    ///< particles larger than a cell
-    bool has_smooth = false;  ///< particles with a SmoothKernel
+    bool has_multi_cell = false;  ///< particles larger than a cell
+    bool has_smooth = false;      ///< particles with a SmoothKernel
     Triple released{};
     Triple given{};  ///< [N s] weight included
     Triple size{};   ///< [N s] sum of the magnitudes
   };
   using Impulses = std::array<StencilBatch::Reals, 3>;
+  /// What the contributions of a batch are made of.
+  struct BatchInputs {
+    StencilBatch::Reals coefficient;  ///< of all components
+    std::array<ContributionInputs, 3> component;
+  };
+  /// What took up the drag of a step.
+  struct FluidAfter {
+    const fluid::CellField& eps;
+    const fluid::FaceField& velocity;
+    double impulse = 0.0;  ///< [m3 s] step times the volume of a cell
+  };
 
-  void begin_batch(const particles::GrainRows& grains, std::span<const std::int32_t> rows,
-                   const StencilBatch& here, const LinearisedDrag& drag,
-                   const ParticleStates& states, double step, StencilBatch::Reals& coefficient,
-                   std::array<ContributionInputs, 3>& inputs, BatchContributions& batch) const;
-  void sum_wide(const StencilBatch& stencils, int d, const fluid::CellField& eps,
-                ContributionInputs& input) const;
-  void assemble_smooth(std::span<const std::int32_t> rows, const StencilBatch& here,
-                       const LinearisedDrag& drag, const ParticleStates& states,
-                       std::array<ContributionInputs, 3>& inputs, BatchContributions& batch) const;
+  void begin_batch(const ParticleBatch& particles, const LinearisedDrag& drag,
+                   const ParticleStates& states, double step, BatchInputs& inputs,
+                   BatchContributions& batch) const;
+  void sum_multi_cell(const StencilBatch& stencils, int d, const fluid::CellField& eps,
+                      ContributionInputs& input) const;
+  void assemble_smooth(const ParticleBatch& particles, const LinearisedDrag& drag,
+                       const ParticleStates& states, std::array<ContributionInputs, 3>& inputs,
+                       BatchContributions& batch) const;
   void release(std::span<const std::int32_t> rows, const std::array<ContributionInputs, 3>& inputs,
                ParticleStates& states, BatchContributions& batch) const;
   void scatter_component(int d, const FaceStencils& stencils, const fluid::CellField& eps);
@@ -100,12 +109,10 @@ class DragExchange {
   void scatter_one(int d, const Faces& faces, const Contribution& c);
   std::int64_t release_escaped(int d, ParticleStates& states, double step);
   void release_cells(int d, std::vector<double>& deferred, double step);
-  void evaluate_batch(const StencilBatch& here, const fluid::CellField& eps,
-                      const fluid::FaceField& velocity, double impulse, BatchContributions& batch,
+  void evaluate_batch(const StencilBatch& here, const FluidAfter& fluid, BatchContributions& batch,
                       Impulses& given) const;
-  void evaluate_wide(const StencilBatch& here, int d, const fluid::CellField& eps,
-                     const std::vector<double>& u, double impulse, const BatchContributions& batch,
-                     Impulses& given) const;
+  void evaluate_multi_cell(const StencilBatch& here, int d, const FluidAfter& after,
+                           const BatchContributions& batch, Impulses& given) const;
   [[nodiscard]] double drag_through(int d, const SmoothKernel& kernel, const std::vector<double>& u,
                                     double velocity, double flux_difference) const;
   [[nodiscard]] double imbalance(const fluid::FaceField& velocity, double step);

@@ -22,16 +22,14 @@ constexpr double k_overlapped_implicit = 2.0;
 
 }  // namespace
 
-DragLinearisation::DragLinearisation(const Lattice& lattice, const sdk::VoidageRule& voidage,
-                                     const DragModel& drag, const VoidFractionField& void_fraction,
-                                     SelfDisturbance& self, ParticleStates& states,
+DragLinearisation::DragLinearisation(const CouplingScene& scene, SelfDisturbance& self,
                                      const Triple& initial_velocity, Order order)
-    : lattice_(lattice),
-      voidage_(voidage),
-      drag_(drag),
-      void_fraction_(void_fraction),
+    : lattice_(scene.lattice),
+      voidage_(scene.voidage),
+      drag_(scene.drag),
+      void_fraction_(scene.void_fraction),
       self_(self),
-      states_(states),
+      states_(scene.states),
       initial_velocity_(initial_velocity),
       order_(order) {}
 
@@ -44,15 +42,14 @@ double DragLinearisation::implicit_factor(double relaxations) const {
 }
 
 /// The slip of each particle with the fluid last seen at it (the initial velocity for a new one).
-void DragLinearisation::find_slips(const particles::GrainRows& grains,
-                                   std::span<const std::int32_t> rows, const StencilBatch& here,
-                                   std::size_t number, double step, LinearisedDrag& drag,
-                                   DragColumns& columns) {
-  MultiCellKernel wide(lattice_, voidage_);
+void DragLinearisation::find_slips(const ParticleBatch& batch, std::size_t number, double step,
+                                   LinearisedDrag& drag, DragColumns& columns) {
+  const particles::GrainRows& grains = batch.grains;
+  MultiCellKernel multi_cell(lattice_, voidage_);
   SmoothKernel smooth(lattice_);
-  for (std::size_t q = 0; q < rows.size(); ++q) {
-    const auto row = static_cast<std::size_t>(rows[q]);
-    const double* position = grains.position + 4 * row;
+  for (std::size_t q = 0; q < batch.size(); ++q) {
+    const std::size_t row = batch.row(q);
+    const double* position = grains.position_of(row);
     const double* velocity = grains.velocity_of(row);
     ParticleState& r = states_[row];
     r.stencil = static_cast<std::int32_t>(number * StencilBatch::k_size + q);
@@ -63,7 +60,7 @@ void DragLinearisation::find_slips(const particles::GrainRows& grains,
     }
     slip = std::sqrt(slip);
     double& around = drag.void_fraction[q];
-    around = void_fraction_.around(position, cell_of(here, q), wide);
+    around = void_fraction_.around(position, cell_of(batch.here, q), multi_cell);
     drag.is_smooth[q] = 0;
     if (states_.has_self_flow()) {
       drag.is_smooth[q] = self_.begin_step(grains, row, slip, step, smooth, around) ? 1 : 0;
@@ -74,25 +71,25 @@ void DragLinearisation::find_slips(const particles::GrainRows& grains,
   }
 }
 
-void DragLinearisation::evaluate(const particles::GrainRows& grains,
-                                 std::span<const std::int32_t> rows, const StencilBatch& here,
-                                 std::size_t number, double step, LinearisedDrag& drag) {
+void DragLinearisation::evaluate(const ParticleBatch& batch, std::size_t number, double step,
+                                 LinearisedDrag& drag) {
+  const particles::GrainRows& grains = batch.grains;
   DragColumns columns;
-  find_slips(grains, rows, here, number, step, drag, columns);
-  drag_.evaluate(columns, rows.size());
-  for (std::size_t q = 0; q < rows.size(); ++q) {
-    const auto row = static_cast<std::size_t>(rows[q]);
-    const double inverse_mass = grains.velocity_of(row)[3];
+  find_slips(batch, number, step, drag, columns);
+  drag_.evaluate(columns, batch.size());
+  for (std::size_t q = 0; q < batch.size(); ++q) {
+    const std::size_t row = batch.row(q);
+    const double inverse_mass = grains.inverse_mass(row);
     // The faces' coefficients hold the set's factor already.
     const double of_faces =
         drag_.coefficient(grains, row, columns.factor[q]) / self_.stress_factor(row);
     const double of_particle = of_faces * drag_.factor_of_set(columns.void_fraction[q]);
     drag.coefficient[q] = of_faces * implicit_factor(of_particle * inverse_mass * step);
   }
-  drag_.find_slope(columns, rows.size(), drag.slope.data());
+  drag_.find_slope(columns, batch.size(), drag.slope.data());
   // There is no tangent where no fluid has been seen yet.
-  for (std::size_t q = 0; q < rows.size(); ++q) {
-    if (!states_[static_cast<std::size_t>(rows[q])].has_velocity) drag.slope[q] = 0.0;
+  for (std::size_t q = 0; q < batch.size(); ++q) {
+    if (!states_[batch.row(q)].has_velocity) drag.slope[q] = 0.0;
   }
 }
 

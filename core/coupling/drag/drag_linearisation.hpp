@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coupling/drag/drag_model.hpp"
-#include "coupling/particle_states.hpp"
+#include "coupling/coupling_scene.hpp"
 #include "coupling/self_disturbance/self_disturbance.hpp"
-#include "coupling/stencils/lattice.hpp"
-#include "coupling/void_fraction_field.hpp"
+#include "coupling/stencils/face_stencils.hpp"
 
 #include <array>
-#include <span>
 
 namespace dust::coupling {
 
@@ -30,17 +27,14 @@ class DragLinearisation {
   enum class Order { fluid_first, overlapped };
 
   /// All are kept by reference. `initial_velocity` [m/s]: of the fluid, for new particles.
-  DragLinearisation(const Lattice& lattice, const sdk::VoidageRule& voidage, const DragModel& drag,
-                    const VoidFractionField& void_fraction, SelfDisturbance& self,
-                    ParticleStates& states, const Triple& initial_velocity, Order order);
+  DragLinearisation(const CouplingScene& scene, SelfDisturbance& self,
+                    const Triple& initial_velocity, Order order);
 
-  /// Of batch `number` with the stencils `here`, for a fluid step of `step` [s].
-  void evaluate(const particles::GrainRows& grains, std::span<const std::int32_t> rows,
-                const StencilBatch& here, std::size_t number, double step, LinearisedDrag& drag);
+  /// Of a batch, which is that of this `number`, for a fluid step of `step` [s].
+  void evaluate(const ParticleBatch& batch, std::size_t number, double step, LinearisedDrag& drag);
 
  private:
-  void find_slips(const particles::GrainRows& grains, std::span<const std::int32_t> rows,
-                  const StencilBatch& here, std::size_t number, double step, LinearisedDrag& drag,
+  void find_slips(const ParticleBatch& batch, std::size_t number, double step, LinearisedDrag& drag,
                   DragColumns& columns);
   [[nodiscard]] double implicit_factor(double relaxations) const;
 

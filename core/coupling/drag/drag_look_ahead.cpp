@@ -8,10 +8,19 @@
 namespace dust::coupling {
 namespace {
 
-DUST_KERNEL void predict_along(std::size_t count, double half, double before, double gravity,
-                               const double* rate, const double* weight, const double* is_known,
-                               const double* pull, const double* slip, double* change,
+/// The half interval ahead of `count` grains, and the columns of one component.
+struct HalfInterval {
+  std::size_t count;
+  double half, before, gravity;
+};
+struct ComponentColumns {
+  const double *rate, *weight, *is_known, *pull, *slip;
+};
+
+DUST_KERNEL void predict_along(HalfInterval interval, ComponentColumns grains, double* change,
                                double* square) {
+  const auto [count, half, before, gravity] = interval;
+  const auto [rate, weight, is_known, pull, slip] = grains;
 #pragma omp simd
   for (std::size_t q = 0; q < count; ++q) {
     // As much as an implicit half step makes of it: where a grain relaxes fast, the drag of early
@@ -39,8 +48,9 @@ void predict(std::size_t count, double half, double before, const std::array<dou
              const std::array<StencilBatch::Reals, 3>& slip, DragLookAhead& grains) {
   grains.speed.fill(0.0);
   for (std::size_t d = 0; d < 3; ++d) {
-    predict_along(count, half, before, gravity[d], grains.rate.data(), grains.weight.data(),
-                  grains.is_known.data(), grains.pull[d].data(), slip[d].data(),
+    predict_along({count, half, before, gravity[d]},
+                  {grains.rate.data(), grains.weight.data(), grains.is_known.data(),
+                   grains.pull[d].data(), slip[d].data()},
                   grains.change[d].data(), grains.speed.data());
   }
   root(count, grains.speed.data());

@@ -37,7 +37,7 @@ void DragModel::find_slope(DragColumns& columns, std::size_t count, double* slop
 double DragModel::fastest_relaxation(const particles::GrainRows& grains) const {
   double fastest = 0.0;
   for (std::size_t row = 0; row < grains.count; ++row) {
-    fastest = std::max(fastest, coefficient(grains, row, 1.0) * grains.velocity_of(row)[3]);
+    fastest = std::max(fastest, coefficient(grains, row, 1.0) * grains.inverse_mass(row));
   }
   return fastest;
 }

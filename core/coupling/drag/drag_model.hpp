@@ -44,17 +44,15 @@ class DragModel {
   /// Reynolds number of the particles that a computed one stands for.
   [[nodiscard]] double reynolds(const particles::GrainRows& grains, std::size_t row, double eps,
                                 double slip) const {
-    const double* position = grains.position + 4 * row;
-    return eps * slip * 2.0 * position[3] * per_kinematic_viscosity(position) /
+    return eps * slip * grains.diameter(row) * per_kinematic_viscosity(grains.position_of(row)) /
            graining_.of(grains, row);
   }
   /// K = 3 pi mu D F [kg/s]: of l^3 particles of diameter D / l, l^2 times as much.
   [[nodiscard]] double coefficient(const particles::GrainRows& grains, std::size_t row,
                                    double factor) const {
-    const double* position = grains.position + 4 * row;
     const double l = graining_.of(grains, row);
-    return 3.0 * std::numbers::pi * fluid_at(position).viscosity * 2.0 * position[3] * factor *
-           (l * l);
+    const double viscosity = fluid_at(grains.position_of(row)).viscosity;
+    return 3.0 * std::numbers::pi * viscosity * grains.diameter(row) * factor * (l * l);
   }
   /// Set III puts the pressure's part into the drag; docs/theory/coupling.md, eq. (3).
   [[nodiscard]] double factor_of_set(double eps) const { return is_set_three() ? 1.0 / eps : 1.0; }

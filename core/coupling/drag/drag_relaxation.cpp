@@ -53,39 +53,41 @@ void DragRelaxation::fetch(const particles::GrainRows& grains, Rows rows) const 
 }
 
 /// Particles that have no action yet get that of the drag at their present slip, for `look_ahead`.
-void DragRelaxation::begin(const particles::GrainRows& grains, Rows rows, const SampledFlow& flow,
+void DragRelaxation::begin(const ParticleBatch& batch, const SampledFlow& flow,
                            DragColumns& columns) const {
+  const particles::GrainRows& grains = batch.grains;
   const auto is_new = [&](std::int32_t row) {
     return !states_[static_cast<std::size_t>(row)].has_velocity;
   };
-  if (std::none_of(rows.begin(), rows.end(), is_new)) return;
-  for (std::size_t q = 0; q < rows.size(); ++q) {
+  if (std::none_of(batch.rows.begin(), batch.rows.end(), is_new)) return;
+  for (std::size_t q = 0; q < batch.size(); ++q) {
     const Triple slip{flow.slip[0][q], flow.slip[1][q], flow.slip[2][q]};
     const double speed = std::sqrt(slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2]);
-    const auto row = static_cast<std::size_t>(rows[q]);
+    const std::size_t row = batch.row(q);
     columns.reynolds[q] = drag_.reynolds(grains, row, columns.void_fraction[q], speed);
     columns.size_ratio[q] = states_[row].size_ratio;
   }
-  drag_.evaluate(columns, rows.size());
-  for (std::size_t q = 0; q < rows.size(); ++q) {
-    if (!is_new(rows[q])) continue;
-    const auto row = static_cast<std::size_t>(rows[q]);
+  drag_.evaluate(columns, batch.size());
+  for (std::size_t q = 0; q < batch.size(); ++q) {
+    if (!is_new(batch.rows[q])) continue;
+    const std::size_t row = batch.row(q);
     const double* v = grains.velocity_of(row);
     double* action = grains.drag_relaxation + 4 * row;
     for (std::size_t d = 0; d < 3; ++d) action[d] = v[d] + flow.slip[d][q];
-    action[3] = drag_.coefficient(grains, row, columns.factor[q]) * v[3];
+    action[3] = drag_.coefficient(grains, row, columns.factor[q]) * grains.inverse_mass(row);
   }
 }
 
 /// The change of each grain's velocity until half way, and the batch's Reynolds numbers then.
-void DragRelaxation::look_ahead(const particles::GrainRows& grains, Rows rows, double held,
-                                double last_held, const SampledFlow& flow, DragColumns& columns,
+void DragRelaxation::look_ahead(const ParticleBatch& batch, const Interval& interval,
+                                const SampledFlow& flow, DragColumns& columns,
                                 DragLookAhead& ahead) {
-  begin(grains, rows, flow, columns);
-  const double half = 0.5 * held;
-  const double before = last_held > 0.0 ? half / last_held : 0.0;
-  for (std::size_t q = 0; q < rows.size(); ++q) {
-    const auto row = static_cast<std::size_t>(rows[q]);
+  begin(batch, flow, columns);
+  const particles::GrainRows& grains = batch.grains;
+  const double half = 0.5 * interval.held;
+  const double before = interval.last_held > 0.0 ? half / interval.last_held : 0.0;
+  for (std::size_t q = 0; q < batch.size(); ++q) {
+    const std::size_t row = batch.row(q);
     const double* v = grains.velocity_of(row);
     const double* action = grains.drag_relaxation + 4 * row;
     ParticleState& r = states_[row];
@@ -93,8 +95,8 @@ void DragRelaxation::look_ahead(const particles::GrainRows& grains, Rows rows, d
     ahead.rate[q] = action[3];
     ahead.is_known[q] = is_known ? 1.0 : 0.0;
     // Of a new grain only the drag is known; its weight may be borne by what else acts on it.
-    const double volume = sdk::sphere_volume(2.0 * grains.position[4 * row + 3]);
-    ahead.weight[q] = is_known ? weight_factor(v[3], volume) : 0.0;
+    const double volume = sdk::sphere_volume(grains.diameter(row));
+    ahead.weight[q] = is_known ? weight_factor(grains.inverse_mass(row), volume) : 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
       ahead.pull[d][q] = action[d] - v[d];
       ahead.change[d][q] = v[d] - r.velocity[d];
@@ -104,41 +106,40 @@ void DragRelaxation::look_ahead(const particles::GrainRows& grains, Rows rows, d
     r.has_velocity = true;
     columns.size_ratio[q] = r.size_ratio;
   }
-  predict(rows.size(), half, before, {gravity_.x, gravity_.y, gravity_.z}, flow.slip, ahead);
-  for (std::size_t q = 0; q < rows.size(); ++q) {
-    const auto row = static_cast<std::size_t>(rows[q]);
+  predict(batch.size(), half, before, {gravity_.x, gravity_.y, gravity_.z}, flow.slip, ahead);
+  for (std::size_t q = 0; q < batch.size(); ++q) {
+    const std::size_t row = batch.row(q);
     columns.reynolds[q] = drag_.reynolds(grains, row, columns.void_fraction[q], ahead.speed[q]);
   }
 }
 
-void DragRelaxation::update(const particles::GrainRows& grains, Rows rows, const FluidState& fluid,
-                            const SampledFlow& flow, double held, double last_held,
+void DragRelaxation::update(const ParticleBatch& batch, const FluidState& fluid,
+                            const SampledFlow& flow, const Interval& interval,
                             DragColumns& columns) {
   DragLookAhead ahead;
-  look_ahead(grains, rows, held, last_held, flow, columns, ahead);
-  drag_.evaluate(columns, rows.size());
+  look_ahead(batch, interval, flow, columns, ahead);
+  drag_.evaluate(columns, batch.size());
   if (forces_ != nullptr) {
-    relax_by_forces(grains, rows, fluid, flow, held, ahead, columns);
+    relax_by_forces(batch, fluid, flow, interval.held, ahead, columns);
   } else {
-    relax_by_drag(grains, rows, flow, held, ahead, columns);
+    relax_by_drag(batch, flow, interval.held, ahead, columns);
   }
 }
 
 /// Drag and the stress on the particle's volume.
-void DragRelaxation::relax_by_drag(const particles::GrainRows& grains, Rows rows,
-                                   const SampledFlow& flow, double held, const DragLookAhead& ahead,
-                                   const DragColumns& columns) {
-  for (std::size_t q = 0; q < rows.size(); ++q) {
-    const auto row = static_cast<std::size_t>(rows[q]);
-    const double diameter = 2.0 * grains.position[4 * row + 3];
+void DragRelaxation::relax_by_drag(const ParticleBatch& batch, const SampledFlow& flow, double held,
+                                   const DragLookAhead& ahead, const DragColumns& columns) {
+  const particles::GrainRows& grains = batch.grains;
+  for (std::size_t q = 0; q < batch.size(); ++q) {
+    const std::size_t row = batch.row(q);
     const double* v = grains.velocity_of(row);
     double* action = grains.drag_relaxation + 4 * row;
     ParticleState& r = states_[row];
-    const DragModel::Fluid fluid = drag_.fluid_at(grains.position + 4 * row);
+    const DragModel::Fluid fluid = drag_.fluid_at(grains.position_of(row));
     const double drag =
-        drag_above_zero(drag_coefficient(grains, row, columns, q), 1.0 / v[3], held);
+        drag_above_zero(drag_coefficient(grains, row, columns, q), grains.mass(row), held);
     const double per_drag = 1.0 / drag;
-    const double volume = sdk::sphere_volume(diameter);
+    const double volume = sdk::sphere_volume(grains.diameter(row));
     // The particles' reduced gravity is that of the fluid's own density.
     const double lift = volume * (drag_.properties().own().density - fluid.density);
     Triple relative;
@@ -149,25 +150,26 @@ void DragRelaxation::relax_by_drag(const particles::GrainRows& grains, Rows rows
       action[d] = v[d] + relative[d] + force * per_drag;
       r.stress_impulse[d] += force;
     }
-    action[3] = drag * v[3];
+    action[3] = drag * grains.inverse_mass(row);
     note_wind(grains, row, relative, drag);
   }
 }
 
-void DragRelaxation::relax_by_forces(const particles::GrainRows& grains, Rows rows,
-                                     const FluidState& fluid, const SampledFlow& flow, double held,
+void DragRelaxation::relax_by_forces(const ParticleBatch& batch, const FluidState& fluid,
+                                     const SampledFlow& flow, double held,
                                      const DragLookAhead& ahead, const DragColumns& columns) {
+  const particles::GrainRows& grains = batch.grains;
   ForceModels::Sums sums;
-  const ForceModels::Batch terms{rows, columns.void_fraction.data(), columns_of(flow.slip),
+  const ForceModels::Batch terms{batch.rows, columns.void_fraction.data(), columns_of(flow.slip),
                                  columns_of(flow.stress)};
   forces_->evaluate(grains, terms, fluid, held, states_, sums);
-  for (std::size_t q = 0; q < rows.size(); ++q) {
-    const auto row = static_cast<std::size_t>(rows[q]);
-    const double mass = 1.0 / grains.velocity_of(row)[3];
+  for (std::size_t q = 0; q < batch.size(); ++q) {
+    const std::size_t row = batch.row(q);
+    const double mass = grains.mass(row);
     const double drag = drag_above_zero(drag_coefficient(grains, row, columns, q), mass, held);
     Triple relative;
     for (std::size_t d = 0; d < 3; ++d) relative[d] = relative_slip(flow, ahead, d, q);
-    act(grains, row, q, drag, relative, held, sums);
+    act(batch, q, drag, relative, held, sums);
     note_wind(grains, row, relative, drag);
   }
 }
@@ -176,43 +178,44 @@ void DragRelaxation::relax_by_forces(const particles::GrainRows& grains, Rows ro
 ///   (m + m_a) dv/dt = K (relative slip) + sum of forces + m g' + contacts ,
 /// while the DEM integrates dv/dt = rate (target - v) + g' + contacts / m: the target makes up for
 /// the difference, for the contacts with those of the last interval.
-void DragRelaxation::act(const particles::GrainRows& grains, std::size_t row, std::size_t n,
-                         double drag_coefficient, const Triple& relative, double held,
-                         const ForceModels::Sums& sums) {
+void DragRelaxation::act(const ParticleBatch& batch, std::size_t q, double drag_coefficient,
+                         const Triple& relative, double held, const ForceModels::Sums& sums) {
+  const particles::GrainRows& grains = batch.grains;
+  const std::size_t row = batch.row(q);
   const double* v = grains.velocity_of(row);
   double* action = grains.drag_relaxation + 4 * row;
   ParticleState& r = states_[row];
-  const double mass = 1.0 / v[3];
-  const double moved = mass + sums.added_mass[n];
-  const double volume = sdk::sphere_volume(2.0 * grains.position[4 * row + 3]);
+  const double mass = grains.mass(row);
+  const double moved = mass + sums.added_mass[q];
+  const double volume = sdk::sphere_volume(grains.diameter(row));
   const double share = forces_->weight_share(mass, volume);
   const bool is_buoyancy_taken = forces_->taken().buoyancy;
   const double lift = is_buoyancy_taken
                           ? 0.0
                           : volume * (drag_.properties().own().density -
-                                      drag_.fluid_at(grains.position + 4 * row).density);
+                                      drag_.fluid_at(grains.position_of(row)).density);
   Triple pull;       // [N] all but m g' and contacts
   Triple contained;  // [N] of it, what the fluid does not receive
   for (std::size_t d = 0; d < 3; ++d) {
     const double g = gravity_[static_cast<int>(d)];
-    contained[d] = volume * sums.kept[n][d] + lift * g + sums.contained[n][d];
-    pull[d] = drag_coefficient * relative[d] + contained[d] + sums.returned[n][d] -
-              sums.added_mass[n] * (share * g + sums.contact[n][d]);
+    contained[d] = volume * sums.kept[q][d] + lift * g + sums.contained[q][d];
+    pull[d] = drag_coefficient * relative[d] + contained[d] + sums.returned[q][d] -
+              sums.added_mass[q] * (share * g + sums.contact[q][d]);
   }
-  if (sums.resistance[n] > 0.0) {
+  if (sums.resistance[q] > 0.0) {
     // Implicit along the wall's normal: it may be far stiffer than the interval.
-    double approach = -sums.wall_speed[n];
+    double approach = -sums.wall_speed[q];
     double change = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
-      const double towards = sums.normal[n][d];
+      const double towards = sums.normal[q][d];
       approach += towards * v[d];
       change += towards * (pull[d] / moved + share * gravity_[static_cast<int>(d)]) * held;
     }
-    const double stiffness = sums.resistance[n] * held / moved;
-    const double force = -sums.resistance[n] * (approach + change) / (1.0 + stiffness);
+    const double stiffness = sums.resistance[q] * held / moved;
+    const double force = -sums.resistance[q] * (approach + change) / (1.0 + stiffness);
     for (std::size_t d = 0; d < 3; ++d) {
-      pull[d] += force * sums.normal[n][d];
-      contained[d] += force * sums.normal[n][d];
+      pull[d] += force * sums.normal[q][d];
+      contained[d] += force * sums.normal[q][d];
     }
   }
   for (std::size_t d = 0; d < 3; ++d) {

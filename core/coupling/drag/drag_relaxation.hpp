@@ -28,26 +28,26 @@ class DragRelaxation {
   /// faces are looked at.
   void fetch(const particles::GrainRows& grains, std::span<const std::int32_t> rows) const;
 
-  /// Writes the action on a batch that holds for `held` [s], the last one for `last_held` (0: there
-  /// was none). `columns` holds the void fractions, and is overwritten.
-  void update(const particles::GrainRows& grains, std::span<const std::int32_t> rows,
-              const FluidState& fluid, const SampledFlow& flow, double held, double last_held,
-              DragColumns& columns);
+  /// For how long an action holds [s], and for how long the last one did; 0: there was none.
+  struct Interval {
+    double held = 0.0;
+    double last_held = 0.0;
+  };
+  /// Writes the action on a batch. `columns` holds the void fractions, and is overwritten.
+  void update(const ParticleBatch& batch, const FluidState& fluid, const SampledFlow& flow,
+              const Interval& interval, DragColumns& columns);
 
  private:
   using Rows = std::span<const std::int32_t>;
-  void begin(const particles::GrainRows& grains, Rows rows, const SampledFlow& flow,
-             DragColumns& columns) const;
-  void look_ahead(const particles::GrainRows& grains, Rows rows, double held, double last_held,
-                  const SampledFlow& flow, DragColumns& columns, DragLookAhead& ahead);
-  void relax_by_drag(const particles::GrainRows& grains, Rows rows, const SampledFlow& flow,
-                     double held, const DragLookAhead& ahead, const DragColumns& columns);
-  void relax_by_forces(const particles::GrainRows& grains, Rows rows, const FluidState& fluid,
-                       const SampledFlow& flow, double held, const DragLookAhead& ahead,
-                       const DragColumns& columns);
-  void act(const particles::GrainRows& grains, std::size_t row, std::size_t n,
-           double drag_coefficient, const Triple& relative, double held,
-           const ForceModels::Sums& sums);
+  void begin(const ParticleBatch& batch, const SampledFlow& flow, DragColumns& columns) const;
+  void look_ahead(const ParticleBatch& batch, const Interval& interval, const SampledFlow& flow,
+                  DragColumns& columns, DragLookAhead& ahead);
+  void relax_by_drag(const ParticleBatch& batch, const SampledFlow& flow, double held,
+                     const DragLookAhead& ahead, const DragColumns& columns);
+  void relax_by_forces(const ParticleBatch& batch, const FluidState& fluid, const SampledFlow& flow,
+                       double held, const DragLookAhead& ahead, const DragColumns& columns);
+  void act(const ParticleBatch& batch, std::size_t q, double drag_coefficient,
+           const Triple& relative, double held, const ForceModels::Sums& sums);
   /// Part of the weight that the DEM's gravity is.
   [[nodiscard]] double weight_factor(double inverse_mass, double volume) const {
     return forces_ != nullptr ? forces_->weight_share(1.0 / inverse_mass, volume)

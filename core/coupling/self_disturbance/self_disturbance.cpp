@@ -85,17 +85,14 @@ double void_of_others(const SelfFlow& own, const Triple& of_faces) {
 
 }  // namespace
 
-SelfDisturbance::SelfDisturbance(scenario::DisturbanceCorrection mode, const Lattice& lattice,
-                                 const sdk::VoidageRule& voidage, const DragModel& drag,
-                                 const FaceVoidFraction& face_void,
-                                 VoidFractionField& void_fraction, ParticleStates& states)
+SelfDisturbance::SelfDisturbance(scenario::DisturbanceCorrection mode, const CouplingScene& scene)
     : mode_(mode),
-      lattice_(lattice),
-      voidage_(voidage),
-      drag_(drag),
-      face_void_(face_void),
-      void_fraction_(void_fraction),
-      states_(states) {
+      lattice_(scene.lattice),
+      voidage_(scene.voidage),
+      drag_(scene.drag),
+      face_void_(scene.face_void),
+      void_fraction_(scene.void_fraction),
+      states_(scene.states) {
   sides_.fill(self_disturbance::Side::wall);
   const sdk::Vec3& spacing = lattice_.grid().spacing;
   least_spacing_ = std::min({spacing.x, spacing.y, spacing.z});
@@ -139,7 +136,7 @@ double SelfDisturbance::own_weight(const particles::GrainRows& grains, std::size
 }
 
 bool SelfDisturbance::is_candidate(const particles::GrainRows& grains, std::size_t row) const {
-  const double diameter = 2.0 * grains.position[4 * row + 3];
+  const double diameter = grains.diameter(row);
   return self_disturbance::may_be_taken_off(diameter, mean_spacing_, least_spacing_,
                                             own_weight(grains, row), worth());
 }
@@ -149,17 +146,18 @@ bool SelfDisturbance::is_candidate(const particles::GrainRows& grains, std::size
 double SelfDisturbance::own_part(const particles::GrainRows& grains, std::size_t row, double eps,
                                  double slip) const {
   namespace own = self_disturbance;
-  const double* position = grains.position + 4 * row;
+  const double* position = grains.position_of(row);
   const DragModel::Fluid fluid = drag_.fluid_at(position);
-  const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
+  const double volume = grains.weight[row] * sdk::sphere_volume(grains.diameter(row));
   const double solids = volume / lattice_.cell_volume();
   const double excess = own::excess_of_one(1.0 - eps - solids);
   const double weighted = excess * own_weight(grains, row);
-  if (weighted * k_law_of_solids * sdk::sphere_volume(2.0 * position[3]) / lattice_.cell_volume() >
+  if (weighted * k_law_of_solids * sdk::sphere_volume(grains.diameter(row)) /
+          lattice_.cell_volume() >
       worth()) {
     return 1.0;
   }
-  if (weighted * own::most_of_slip(2.0 * position[3], mean_spacing_) <= worth()) return 0.0;
+  if (weighted * own::most_of_slip(grains.diameter(row), mean_spacing_) <= worth()) return 0.0;
   // Schiller and Naumann's drag will do to tell whether it is worth it.
   const double factor = 1.0 + 0.15 * std::pow(drag_.reynolds(grains, row, 1.0, slip), 0.687);
   const double l = drag_.graining().of(grains, row);
@@ -172,11 +170,11 @@ double SelfDisturbance::own_part(const particles::GrainRows& grains, std::size_t
 bool SelfDisturbance::begin_step(const particles::GrainRows& grains, std::size_t row, double slip,
                                  double step, SmoothKernel& kernel, double& eps) {
   SelfFlow& own = states_.self_flow(row);
-  const double* position = grains.position + 4 * row;
+  const double* position = grains.position_of(row);
   const bool is_worth =
       own.spread > 0.0 || (is_candidate(grains, row) && own_part(grains, row, eps, slip) > worth());
   const auto room = is_worth && (own.spread > 0.0 || crowding(grains, row) < k_crowded)
-                        ? kernel.set(position, 2.0 * position[3])
+                        ? kernel.set(position, grains.diameter(row))
                         : SmoothKernel::Room::none;
   if (room == SmoothKernel::Room::none) {
     if (own.is_smooth) own = {};
@@ -204,9 +202,9 @@ bool SelfDisturbance::begin_step(const particles::GrainRows& grains, std::size_t
 /// Most solids of others in one of the 27 cells around, while its own are spread by the rule.
 double SelfDisturbance::crowding(const particles::GrainRows& grains, std::size_t row) const {
   static thread_local Shares shares;
-  const double* position = grains.position + 4 * row;
+  const double* position = grains.position_of(row);
   const double solids =
-      grains.weight[row] * sdk::sphere_volume(2.0 * position[3]) / lattice_.cell_volume();
+      grains.weight[row] * sdk::sphere_volume(grains.diameter(row)) / lattice_.cell_volume();
   const Place p = lattice_.place(position);
   const std::ptrdiff_t here = lattice_.cell(p);
   const double at_least = 1.0 - void_fraction_.after()[here] -
@@ -241,14 +239,14 @@ void SelfDisturbance::spread_solids(const particles::GrainRows& grains) {
   std::vector<Move> moves;
   SmoothKernel kernel(lattice_);
   for (std::size_t row = 0; row < grains.count; ++row) {
-    const double* position = grains.position + 4 * row;
-    if (2.0 * position[3] <= k_sharp * least_spacing_ || !is_candidate(grains, row)) continue;
+    const double* position = grains.position_of(row);
+    if (grains.diameter(row) <= k_sharp * least_spacing_ || !is_candidate(grains, row)) continue;
     SelfFlow& own = states_.self_flow(row);
     own.spread = 0.0;
-    const double volume = grains.weight[row] * sdk::sphere_volume(2.0 * position[3]);
+    const double volume = grains.weight[row] * sdk::sphere_volume(grains.diameter(row));
     const double others = crowding(grains, row);
     if (others >= k_crowded) continue;
-    if (kernel.set(position, 2.0 * position[3]) == SmoothKernel::Room::none) continue;
+    if (kernel.set(position, grains.diameter(row)) == SmoothKernel::Room::none) continue;
     if (!set_shares(voidage_, lattice_, position, shares)) continue;
     // Nothing jumps when others come near.
     own.spread = 1.0 - std::max(0.0, others) / k_crowded;
@@ -270,11 +268,11 @@ void SelfDisturbance::spread_solids(const particles::GrainRows& grains) {
 void SelfDisturbance::find_own_solids(const particles::GrainRows& grains, std::size_t row,
                                       const SmoothKernel& kernel) {
   static thread_local Shares shares;
-  const double* position = grains.position + 4 * row;
+  const double* position = grains.position_of(row);
   set_shares(voidage_, lattice_, position, shares);
   SelfFlow& own = states_.self_flow(row);
   const double solids =
-      grains.weight[row] * sdk::sphere_volume(2.0 * position[3]) / lattice_.cell_volume();
+      grains.weight[row] * sdk::sphere_volume(grains.diameter(row)) / lattice_.cell_volume();
   for (int d = 0; d < 3; ++d) {
     own.solids[static_cast<std::size_t>(d)] = own.spread * solids * kernel.overlap(d);
   }
@@ -296,39 +294,38 @@ void SelfDisturbance::find_own_solids(const particles::GrainRows& grains, std::s
 void SelfDisturbance::find_self_flow(const particles::GrainRows& grains, std::size_t row,
                                      const SmoothKernel& kernel, double eps, double slip,
                                      double step) {
-  const double* position = grains.position + 4 * row;
   SelfFlow& own = states_.self_flow(row);
-  const DragModel::Fluid fluid = drag_.fluid_at(position);
+  const DragModel::Fluid fluid = drag_.fluid_at(grains.position_of(row));
   // The stream that carries the flow away is slowed by it.
   double own_speed = 0.0;
   for (std::size_t d = 0; d < 3; ++d) own_speed += disturbance(own, d) * disturbance(own, d);
   const double stream = std::max(0.0, slip - k_slowing * std::sqrt(own_speed));
   const self_disturbance::Response response =
       self_disturbance::response(kernel.width(), fluid.viscosity, fluid.density, stream);
-  const sdk::Vec3 place{position[0], position[1], position[2]};
-  const auto wall = lattice_.walls().nearest(place, k_wall_reach * mean_spacing_);
+  const auto wall = lattice_.walls().nearest(grains.centre(row), k_wall_reach * mean_spacing_);
   for (std::size_t n = 0; n < self_disturbance::k_groups; ++n) {
     own.kept[n] = std::exp(-response.rate[n] * step);
     const double gained = -std::expm1(-response.rate[n] * step) * response.mobility[n];
     const double k = self_disturbance::k_waves[n] / kernel.width();
     for (int d = 0; d < 3; ++d) {
       own.gained[n][static_cast<std::size_t>(d)] =
-          gained * beside_walls(position, wall ? &*wall : nullptr, d, k);
+          gained * beside_walls(grains, row, wall ? &*wall : nullptr, d, k);
     }
   }
-  const double density = concentration_seen(position, own, kernel) / (eps * lattice_.cell_volume());
+  const double density =
+      concentration_seen(grains, row, own, kernel) / (eps * lattice_.cell_volume());
   own.self_stress = drag_.is_set_three() ? 0.0
                                          : own.excess * grains.weight[row] * response.stress *
-                                               density * sdk::sphere_volume(2.0 * position[3]);
+                                               density * sdk::sphere_volume(grains.diameter(row));
 }
 
 /// Share of its force per cell that a grain sees of the stress that balances it [-]: through its
 /// kernel, or beside a wall as all others do, at the faces of its cell. One larger than a cell sees
 /// it over its cells, about as wide as its kernel.
-double SelfDisturbance::concentration_seen(const double* position, const SelfFlow& own,
-                                           const SmoothKernel& kernel) const {
-  if (!own.is_beside || 2.0 * position[3] > least_spacing_) return kernel.concentration(0);
-  const Place here = lattice_.place(position);
+double SelfDisturbance::concentration_seen(const particles::GrainRows& grains, std::size_t row,
+                                           const SelfFlow& own, const SmoothKernel& kernel) const {
+  if (!own.is_beside || grains.diameter(row) > least_spacing_) return kernel.concentration(0);
+  const Place here = lattice_.place(grains.position_of(row));
   double sum = 0.0;
   for (int d = 0; d < 3; ++d) {
     const double inside = kernel.inside(d);
@@ -341,19 +338,19 @@ double SelfDisturbance::concentration_seen(const double* position, const SelfFlo
 }
 
 /// What sides and bodies make of a group of waves of a force along d.
-double SelfDisturbance::beside_walls(const double* position, const NearWalls::Wall* wall, int d,
-                                     double k) const {
+double SelfDisturbance::beside_walls(const particles::GrainRows& grains, std::size_t row,
+                                     const NearWalls::Wall* wall, int d, double k) const {
   namespace own = self_disturbance;
   const fluid::Grid& grid = lattice_.grid();
   const auto knots_in = [&](double cell) {
-    return std::max(2.0 * position[3], own::k_min_knots * cell);
+    return std::max(grains.diameter(row), own::k_min_knots * cell);
   };
   double factor = 1.0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     if (grid.is_periodic[a]) continue;
     const double cell = grid.spacing[axis];
-    const double above = position[axis] - grid.origin[axis];
+    const double above = grains.position_of(row)[axis] - grid.origin[axis];
     const double below = grid.count[a] * cell - above;
     for (const int high : {0, 1}) {
       const double distance = std::max(high == 0 ? above : below, 0.0);
@@ -421,23 +418,22 @@ void SelfDisturbance::look_at_kernel(const double* position, const SmoothKernel&
 }
 
 /// What the grains with a SmoothKernel see of the fluid, in place of what their eight faces show.
-void SelfDisturbance::sample(const StencilBatch& here, std::span<const std::int32_t> rows,
-                             const FluidState& state, bool needs_stress,
+void SelfDisturbance::sample(const ParticleBatch& batch, const FluidState& state, bool needs_stress,
                              const std::array<StencilBatch::Reals, 3>& v, SampledFlow& seen,
-                             DragColumns& batch) {
+                             DragColumns& columns) {
   SmoothKernel kernel(lattice_);
   const double far = k_look_again * least_spacing_;
-  for (std::size_t q = 0; q < rows.size(); ++q) {
-    const auto row = static_cast<std::size_t>(rows[q]);
+  for (std::size_t q = 0; q < batch.size(); ++q) {
+    const std::size_t row = batch.row(q);
     if (!states_.is_smooth(row)) continue;
     SelfFlow& own = states_.self_flow(row);
-    const double* position = &here.position[4 * q];
+    const double* position = batch.here.position_of(q);
     double way = 0.0;
     for (std::size_t d = 0; d < 3; ++d) {
       way = std::max(way, std::abs(position[d] - own.seen.place[d]));
     }
     if (!own.seen.is_valid || way > far) {
-      kernel.set(position, 2.0 * position[3]);
+      kernel.set(position, 2.0 * batch.here.radius(q));
       look_at_kernel(position, kernel, state, needs_stress, own.seen);
     }
     for (std::size_t d = 0; d < 3; ++d) {
@@ -447,7 +443,7 @@ void SelfDisturbance::sample(const StencilBatch& here, std::span<const std::int3
       // Beside a side the pressure acts as on all others, so that a layer on it has its weight.
       if (!own.is_beside) seen.stress[d][q] = own.seen.stress[d];
     }
-    batch.void_fraction[q] = void_of_others(own, own.seen.eps);
+    columns.void_fraction[q] = void_of_others(own, own.seen.eps);
   }
 }
 

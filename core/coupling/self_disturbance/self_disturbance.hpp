@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "coupling/drag/drag_model.hpp"
+#include "coupling/coupling_scene.hpp"
 #include "coupling/fluid_state.hpp"
-#include "coupling/particle_states.hpp"
 #include "coupling/self_disturbance/disturbance_formulas.hpp"
-#include "coupling/stencils/face_void_fraction.hpp"
+#include "coupling/stencils/face_stencils.hpp"
 #include "coupling/stencils/smooth_kernel.hpp"
-#include "coupling/void_fraction_field.hpp"
 #include "dust/sdk/boundary_condition.hpp"
-#include "dust/sdk/voidage_rule.hpp"
 #include "setup/setup.hpp"
 
 #include <array>
@@ -23,10 +20,7 @@ namespace dust::coupling {
 class SelfDisturbance {
  public:
   /// All are kept by reference.
-  SelfDisturbance(scenario::DisturbanceCorrection mode, const Lattice& lattice,
-                  const sdk::VoidageRule& voidage, const DragModel& drag,
-                  const FaceVoidFraction& face_void, VoidFractionField& void_fraction,
-                  ParticleStates& states);
+  SelfDisturbance(scenario::DisturbanceCorrection mode, const CouplingScene& scene);
 
   /// What the boundaries of the domain are to a particle's flow; null where periodic.
   void use_boundaries(const std::array<const sdk::BoundaryCondition*, 6>& boundaries);
@@ -42,8 +36,7 @@ class SelfDisturbance {
                   SmoothKernel& kernel, double& eps);
   /// What the particles with a SmoothKernel see of the fluid, in place of what their eight faces
   /// show. `v`: their velocities.
-  void sample(const StencilBatch& stencils, std::span<const std::int32_t> rows,
-              const FluidState& fluid, bool needs_stress,
+  void sample(const ParticleBatch& batch, const FluidState& fluid, bool needs_stress,
               const std::array<StencilBatch::Reals, 3>& v, SampledFlow& sampled,
               DragColumns& columns);
   /// The flows at the end of the fluid step: what is left of them, and what was added.
@@ -71,10 +64,10 @@ class SelfDisturbance {
                       const SmoothKernel& kernel, double eps, double slip, double step);
   void look_at_kernel(const double* position, const SmoothKernel& kernel, const FluidState& fluid,
                       bool needs_stress, SelfFlow::Seen& seen) const;
-  [[nodiscard]] double concentration_seen(const double* position, const SelfFlow& own,
-                                          const SmoothKernel& kernel) const;
-  [[nodiscard]] double beside_walls(const double* position, const NearWalls::Wall* wall, int d,
-                                    double k) const;
+  [[nodiscard]] double concentration_seen(const particles::GrainRows& grains, std::size_t row,
+                                          const SelfFlow& own, const SmoothKernel& kernel) const;
+  [[nodiscard]] double beside_walls(const particles::GrainRows& grains, std::size_t row,
+                                    const NearWalls::Wall* wall, int d, double k) const;
 
   scenario::DisturbanceCorrection mode_;
   const Lattice& lattice_;

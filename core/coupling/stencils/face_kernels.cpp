@@ -132,7 +132,7 @@ __attribute__((always_inline)) inline void add(FluxSum<T>& sum, const std::type_
   sum.fluid += part * eps;
   sum.flux += w * eps * (u - sum.v);
 }
-/// sum(w a e (eps (u - v) + lag)), e = 1 for `is_density`, else eps.
+/// sum(w a e (eps (u - v) + flux difference)), e = 1 for `is_density`, else eps.
 template <class T>
 struct DragSum {
   bool is_density = false;

@@ -30,6 +30,9 @@ struct StencilBatch {
   /// Grains in a row that have the same faces around them: where each group begins, and the end.
   std::array<std::uint16_t, k_size + 1> group;
   std::size_t groups = 0;
+
+  [[nodiscard]] const double* position_of(std::size_t q) const { return &position[4 * q]; }
+  [[nodiscard]] double radius(std::size_t q) const { return position[4 * q + 3]; }
 };
 
 /// Whether it is worth the while to look the faces up once per group.
@@ -113,7 +116,7 @@ struct FaceContributions {
 /// What the contributions are made of; `coefficient` is the same for all components.
 struct ContributionInputs {
   const double* coefficient;        ///< [kg/(m3 s)] W K / (eps^2 V)
-  StencilBatch::Reals deferred;     ///< [N/m3] debt per cell volume and step
+  StencilBatch::Reals deferred;     ///< [N/m3] residual per cell volume and step
   StencilBatch::Reals gain;         ///< [-] of the drag, by the grain's own solids at the faces
   StencilBatch::Reals open, fluid;  ///< sums over the faces
 };
@@ -125,7 +128,7 @@ struct GroupContributions {
 /// Fills the columns of one axis from `position` (x of the first grain, 4 numbers per grain) of
 /// `stencils.count` grains.
 void place_along(const AxisView& axis, const double* position, int d, StencilBatch& stencils);
-/// Finds the runs, once all axes are placed.
+/// Finds the groups, once all axes are placed.
 void find_groups(StencilBatch& stencils);
 
 // Columns written have StencilBatch::k_room.
@@ -138,11 +141,11 @@ void sample_faces(const StencilBatch& stencils, int d, const FaceColumns& faces,
 /// faces over that around the grain; docs/theory/coupling.md, eq. (4), (7).
 void slip_of_faces(std::size_t count, const double* eps, const FaceSumColumns& sums,
                    const double* flux, double* slip, double* ratio);
-/// drag and extra from `input`, velocity and lag; 0 for grains with less than `least_open` around
-/// them. `is_density`: what is owed is received by the open share, not by the fluid's.
+/// drag and extra from `input`; 0 for grains with less than `least_open` around them. `is_density`:
+/// the residual is received by the open share, not by the fluid's.
 void find_contributions(std::size_t count, const ContributionInputs& input, double least_open,
                         bool is_density, FaceContributions& contributions);
-/// given = scale drag sum(w a e (eps (u - v) + lag)), e = 1 for `is_density`, else eps.
+/// given = scale drag sum(w a e (eps (u - v) + flux difference)), e = 1 for `is_density`, else eps.
 void evaluate_faces(const StencilBatch& stencils, int d, const FaceColumns& faces, const double* u,
                     const FaceContributions& contributions, double scale, bool is_density,
                     double* given);

@@ -30,10 +30,10 @@ const StencilBatch& FaceStencils::locate(const Lattice& lattice, const particles
     if (q + k_ahead < of_batch.size()) {
       // Rows in the order of the cells lie anywhere: many are fetched at a time.
       const auto next = static_cast<std::size_t>(of_batch[q + k_ahead]);
-      __builtin_prefetch(grains.position + 4 * next);
+      __builtin_prefetch(grains.position_of(next));
       __builtin_prefetch(grains.velocity_of(next));
     }
-    const double* position = grains.position + 4 * static_cast<std::size_t>(row);
+    const double* position = grains.position_of(static_cast<std::size_t>(row));
     const double* velocity = grains.velocity_of(static_cast<std::size_t>(row));
     for (std::size_t n = 0; n < 4; ++n) {
       const double moved = position[n] + times[n] * velocity[n];

@@ -15,6 +15,16 @@
 
 namespace dust::coupling {
 
+/// Particles that are worked on together.
+struct ParticleBatch {
+  const particles::GrainRows& grains;  ///< all
+  std::span<const std::int32_t> rows;  ///< which of them
+  const StencilBatch& here;            ///< the faces around each
+
+  [[nodiscard]] std::size_t size() const { return rows.size(); }
+  [[nodiscard]] std::size_t row(std::size_t q) const { return static_cast<std::size_t>(rows[q]); }
+};
+
 /// The faces around particles, batch by batch in the order of the cells they lie in.
 class FaceStencils {
  public:

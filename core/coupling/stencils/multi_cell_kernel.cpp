@@ -54,7 +54,7 @@ void MultiCellKernel::set(const double* position, double radius) {
   ball_radius_ = std::sqrt(5.0 / 3.0 * moment);
 }
 
-void MultiCellKernel::stencil(int d, const fluid::CellField& eps, WideStencil& s) const {
+void MultiCellKernel::stencil(int d, const fluid::CellField& eps, MultiCellStencil& s) const {
   s.storage.clear();
   for (auto* column : {&s.weight, &s.void_fraction, &s.open}) column->clear();
   for (const Share& share : shares_) {

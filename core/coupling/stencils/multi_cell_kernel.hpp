@@ -9,11 +9,11 @@
 namespace dust::coupling {
 
 /// As Stencil, of any number of faces.
-struct WideStencil {
+struct MultiCellStencil {
   std::vector<std::ptrdiff_t> storage;
   std::vector<double> weight, void_fraction, open;
 };
-[[nodiscard]] inline std::size_t size(const WideStencil& s) { return s.storage.size(); }
+[[nodiscard]] inline std::size_t size(const MultiCellStencil& s) { return s.storage.size(); }
 
 /// The cells over which a grain larger than a cell is spread by the voidage rule, and the faces
 /// through which it is coupled: each cell gives half of its share to either face along the
@@ -28,7 +28,7 @@ class MultiCellKernel {
   /// Looks at a grain; `position` [m] of its centre.
   void set(const double* position, double radius);
   /// Faces of component d, with void fractions from the padded field `eps`.
-  void stencil(int d, const fluid::CellField& eps, WideStencil& s) const;
+  void stencil(int d, const fluid::CellField& eps, MultiCellStencil& s) const;
   /// Mean of a padded field over the cells.
   [[nodiscard]] double mean(const fluid::CellField& field) const;
   /// Radius [m] of the ball of the same second moment as the shares.

@@ -15,7 +15,7 @@ particles::GrainRows OwnSides::take(const particles::GrainRows& rows) {
   const tbb::blocked_range<std::size_t> all(0, rows.count, k_rows);
   tbb::parallel_for(all, [&](const tbb::blocked_range<std::size_t>& range) {
     for (std::size_t row = range.begin(); row < range.end(); ++row) {
-      const double* from = rows.position + 4 * row;
+      const double* from = rows.position_of(row);
       double* to = position_.data() + 4 * row;
       const sdk::Vec3 place = bodies_->on_own_side({from[0], from[1], from[2]});
       for (int d = 0; d < 3; ++d) to[d] = place[d];

@@ -45,6 +45,7 @@ void Clusters::find(const FineScene& scene) {
   unite_fine_pairs(scene);
   list_coarse_partners(scene);
   choose_levels(scene);
+  // Cluster by cluster, those of the finest level first: a block of particles has one level.
   std::sort(sub_cycled_.begin(), sub_cycled_.end(), [&](std::int32_t a, std::int32_t b) {
     const std::int32_t ca = at(a).cluster;
     const std::int32_t cb = at(b).cluster;

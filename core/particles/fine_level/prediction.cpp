@@ -71,7 +71,7 @@ Approach approach_to_surface(const FineScene& scene, std::size_t i, std::int32_t
   const auto point = surface.nearest(vector_of(s.position(i)));
   return {.gap = point.distance - radius,
           .effective_radius = radius,
-          .effective_mass = 1.0 / s.velocity(i)[3],
+          .effective_mass = 1.0 / s.inverse_mass(i),
           .surface_speed = surface.displacing_speed,
           .normal = point.normal,
           .relative = vector_of(s.velocity(i)),
@@ -88,7 +88,7 @@ Approach approach_to_particle(const FineScene& scene, std::size_t i, std::size_t
   const double distance = std::max(norm(d), 1e-300);
   return {.gap = distance - radius - partner,
           .effective_radius = radius * partner / (radius + partner),
-          .effective_mass = 1.0 / (s.velocity(i)[3] + s.velocity(j)[3]),
+          .effective_mass = 1.0 / (s.inverse_mass(i) + s.inverse_mass(j)),
           .normal = d / distance,
           .relative = vector_of(s.velocity(i)) - other.velocity,
           .law = scene.laws.index(s.material(i), s.material(j))};

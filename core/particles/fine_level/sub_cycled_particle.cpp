@@ -47,7 +47,7 @@ SubCycledParticle load_fine(const FineScene& scene, std::int32_t particle) {
   p.radius = s.radius(n);
   p.inverse_mass = s.inverse_mass(n);
   p.weight = s.weight(n);
-  p.drag.rate = drag[3];
+  p.drag.rate = s.relaxation_rate(n);
   p.position = vector_of(s.position(n));
   p.velocity = {vector_of(s.velocity(n)), vector_of(s.rotation(n))};
   p.half_velocity = {vector_of(s.half_velocity(n)), vector_of(s.half_rotation(n))};
@@ -96,7 +96,7 @@ void store_fine(const SubCycledParticle& p, ParticleStore& s, double* force) {
     if (s.has_fluid()) s.impulse(n)[d] = p.drag.received[d];
     force[d] = p.force[d];
   }
-  s.half_velocity(n)[3] = p.since_kick;
+  s.set_time_since_kick(n, p.since_kick);
 }
 
 bool store_coarse(const SubCycledParticle& p, const FineScene& scene, DeferredImpulse& deferred) {

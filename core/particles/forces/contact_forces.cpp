@@ -40,13 +40,13 @@ void ContactForces::evaluate(const ContactScene& scene, Tile range, TileContacts
 }
 
 /// What a batch dissipates, beside the forces that it brings; histories stand in the columns.
-void ContactForces::note_work(const ContactScene& scene, const PairLaws& law,
-                              const contact::Places* places, const std::int32_t* contacts,
-                              std::size_t count, bool has_scales, BatchColumns& columns,
+void ContactForces::note_work(const ContactScene& scene, const PairBatch& batch,
+                              std::span<const contact::Places> slots, bool has_scales,
                               double* force) {
   Dissipation lost;
-  find_dissipation(law, columns, count, scene.step, scene.laws.work_column(), lost);
-  scatter_dissipation(lost, places, contacts, count, has_scales, columns, force);
+  find_dissipation(batch.law, batch.columns, batch.count, scene.step, scene.laws.work_column(),
+                   lost);
+  scatter_dissipation(lost, batch, slots, has_scales, force);
 }
 
 /// Contacts that touched when the list was pruned: nearly all still do, so that none is sorted out,
@@ -54,6 +54,7 @@ void ContactForces::note_work(const ContactScene& scene, const PairLaws& law,
 void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& range,
                                      TileContacts& contacts, OfTile& tile, double* force) {
   const contact::PairView pairs = contacts.pairs.view();
+  const contact::RowView rows = scene.rows();
   const std::size_t stride = pairs.history_stride;
   const PairLaws& law = scene.laws[static_cast<std::size_t>(range.law)];
   auto& columns = thread_columns();
@@ -62,23 +63,19 @@ void ContactForces::persistent_pairs(const ContactScene& scene, const LawRange& 
   for (auto p = static_cast<std::size_t>(range.begin); p < end; p += k_batch) {
     const std::size_t count = std::min(k_batch, end - p);
     const std::size_t near =
-        contact::gather_persistent(scene.rows(), scene.images, pairs, p, count, law.range, columns);
+        contact::gather_persistent({rows, scene.images, pairs, law.range}, p, count, columns);
     if (tile.energy != nullptr) thread_motion().take_pairs(columns, count);
     history.keep_at(pairs.history + p * stride, count);
-    const bool has_scales =
-        scene.has_weights && find_weight_ratios(scene.particles, pairs, nullptr, p, count, columns);
+    const PairBatch batch{law, pairs, columns, count, p};
+    const bool has_scales = scene.has_weights && find_weight_ratios(scene.particles, batch);
     const double overlap = contact::derive_pair_columns(columns, count);
     tile.largest_overlap = std::max(tile.largest_overlap, overlap);
     if (near < count) contact::mask_separated(pairs.is_touching + p, count, columns);
     evaluate_laws(law, columns, count, scene.step);
-    if (tile.energy != nullptr) {
-      record_work(scene, law, pairs, nullptr, p, count, columns, *tile.energy);
-    }
+    if (tile.energy != nullptr) record_work(scene, batch, *tile.energy);
     if (near < count) contact::clear_separated(pairs.is_touching + p, count, stride, columns);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(near);
-    if (scene.work != nullptr) {
-      note_work(scene, law, contacts.slots.data() + p, nullptr, count, has_scales, columns, force);
-    }
+    if (scene.work != nullptr) note_work(scene, batch, contacts.slots, has_scales, force);
     contact::scatter_pairs(contacts.slots.data() + p, count, has_scales, columns, force);
   }
 }
@@ -96,23 +93,19 @@ void ContactForces::new_pairs(const ContactScene& scene, const LawRange& range,
   const auto end = static_cast<std::size_t>(range.end);
   if (tile.energy != nullptr) record_separated(scene, range, pairs, *tile.energy);
   while (next < end) {
-    const std::size_t count = contact::gather_touching(rows, scene.images, pairs, next, end,
-                                                       law.range, touching, columns);
+    const std::size_t count = contact::gather_touching({rows, scene.images, pairs, law.range}, next,
+                                                       end, touching, columns);
     if (count == 0) continue;
     if (tile.energy != nullptr) thread_motion().take_pairs(columns, count);
     contact::load_history(pairs, touching, count, groups, columns);
-    const bool has_scales = scene.has_weights &&
-                            find_weight_ratios(scene.particles, pairs, touching, 0, count, columns);
+    const PairBatch batch{law, pairs, columns, count, 0, touching};
+    const bool has_scales = scene.has_weights && find_weight_ratios(scene.particles, batch);
     const double overlap = contact::derive_pair_columns(columns, count);
     tile.largest_overlap = std::max(tile.largest_overlap, overlap);
     evaluate_laws(law, columns, count, scene.step);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
-    if (tile.energy != nullptr) {
-      record_work(scene, law, pairs, touching, 0, count, columns, *tile.energy);
-    }
-    if (scene.work != nullptr) {
-      note_work(scene, law, contacts.slots.data(), touching, count, has_scales, columns, force);
-    }
+    if (tile.energy != nullptr) record_work(scene, batch, *tile.energy);
+    if (scene.work != nullptr) note_work(scene, batch, contacts.slots, has_scales, force);
     contact::store_history(pairs, touching, count, groups, columns);
     contact::scatter_pairs(contacts.slots.data(), touching, count, has_scales, columns, force);
   }

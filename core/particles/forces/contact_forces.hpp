@@ -4,6 +4,7 @@
 #include "contact/batch_kernels.hpp"
 #include "dust/sdk/sensor.hpp"
 #include "particles/energy/working_contact.hpp"
+#include "particles/forces/pair_batch.hpp"
 #include "particles/forces/wall_loads.hpp"
 #include "particles/neighbours/inner_list.hpp"
 #include "particles/openings/opening_marks.hpp"
@@ -72,18 +73,13 @@ class ContactForces {
   // contact_forces.cpp
   void persistent_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
                         OfTile& tile, double* force);
-  static void note_work(const ContactScene& scene, const PairLaws& law,
-                        const contact::Places* places, const std::int32_t* contacts,
-                        std::size_t count, bool has_scales, contact::BatchColumns& columns,
-                        double* force);
+  static void note_work(const ContactScene& scene, const PairBatch& batch,
+                        std::span<const contact::Places> slots, bool has_scales, double* force);
   void new_pairs(const ContactScene& scene, const LawRange& range, TileContacts& contacts,
                  OfTile& tile, double* force);
   // wall_forces.cpp
   void walls(const ContactScene& scene, Tile range, TileContacts& contacts, OfTile& tile,
              double* force);
-  static void note_wall_loads(const ContactScene& scene, OfTile& tile, const Surface& surface,
-                              const PairLaws& law, std::span<const std::int32_t> rows,
-                              const bool* is_new, contact::BatchColumns& columns);
 
   std::vector<OfTile> tiles_;
   double largest_before_ = 0.0;  ///< of tiles that are gone

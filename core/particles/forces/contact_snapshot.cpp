@@ -46,12 +46,12 @@ class Viewer {
     std::int32_t contacts[k_batch];
     std::size_t next = 0;
     while (next < a.size()) {
-      const std::size_t count = contact::gather_touching(rows, scene_.images, view, next, a.size(),
-                                                         law.range, contacts, columns);
+      const std::size_t count = contact::gather_touching({rows, scene_.images, view, law.range},
+                                                         next, a.size(), contacts, columns);
       if (count == 0) continue;
       contact::load_history(view, contacts, count, groups, columns);
       // has_weights speaks of coarse particles alone, and these may be fine.
-      find_weight_ratios(scene_.particles, view, contacts, 0, count, columns);
+      find_weight_ratios(scene_.particles, {law, view, columns, count, 0, contacts});
       contact::derive_pair_columns(columns, count);
       evaluate_laws(law, columns, count, time_step);
       for (std::size_t q = 0; q < count; ++q) {

@@ -8,10 +8,12 @@
 
 namespace dust::particles {
 
-/// Numbers per particle in rows of forces: force [N] and torque [N m], each with a fourth. Where
-/// dust or an account asks for it, these hold what contacts dissipate at the particle, normal and
-/// tangential [J], until TileStep::take_work(); they are zero where particles move.
+/// Numbers per particle in rows of forces: force [N] and torque [N m], each with a fourth.
 inline constexpr std::size_t k_force_row = 8;
+/// The fourth numbers: where dust or an account asks for it, what contacts dissipate at the
+/// particle [J], until TileStep::take_work(); they are zero where particles move.
+inline constexpr std::size_t k_normal_work = 3;
+inline constexpr std::size_t k_tangential_work = 7;
 
 /// Forces on a tile's particles and, behind them, on its ghosts, while the tile is evaluated: in
 /// memory of the calling thread, so that they stay in its cache. All zero at first. Whoever takes a

@@ -28,17 +28,16 @@ WorkingContact moved_pair(Vec3 separation, Vec3 displacement, Vec3 angle_i, Vec3
 
 }  // namespace
 
-void record_work(const ContactScene& scene, const PairLaws& law, const contact::PairView& pairs,
-                 const std::int32_t* contacts, std::size_t first, std::size_t count,
-                 BatchColumns& columns, EnergySums& sums) {
+void record_work(const ContactScene& scene, const PairBatch& batch, EnergySums& sums) {
+  BatchColumns& columns = batch.columns;
+  const contact::PairView& pairs = batch.pairs;
   const ContactMotion& motion = thread_motion();
   double* const* history = columns.history() + scene.laws.account_column();
   const std::ptrdiff_t stride = columns.history()[1] - columns.history()[0];
   ElasticEnergy elastic;
-  find_elastic_energy(law, columns, count, elastic);
-  for (std::size_t q = 0; q < count; ++q) {
-    const std::size_t entry =
-        contacts == nullptr ? first + q : static_cast<std::size_t>(contacts[q]);
+  find_elastic_energy(batch.law, columns, batch.count, elastic);
+  for (std::size_t q = 0; q < batch.count; ++q) {
+    const std::size_t entry = batch.entry(q);
     WorkingContact c =
         moved_pair(columns.vectors(B::separation_x)[q], motion.displacement(q), motion.angle_i(q),
                    motion.angle_j(q), columns.column(B::lever_i)[q], columns.column(B::lever_j)[q]);
@@ -46,7 +45,7 @@ void record_work(const ContactScene& scene, const PairLaws& law, const contact::
                         scene.particles.weight(static_cast<std::size_t>(pairs.b[entry])));
     if (pairs.is_touching[entry] != 0) {
       c.force = columns.vectors(B::force_x)[q];
-      if (law.rolling) c.couple = columns.vectors(B::torque_x)[q];
+      if (batch.law.rolling) c.couple = columns.vectors(B::torque_x)[q];
       sums.elastic_normal += c.weight * elastic.normal[q];
       sums.elastic_friction += c.weight * elastic.friction[q];
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "particles/forces/contact_forces.hpp"
+#include "particles/forces/pair_batch.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -9,11 +10,8 @@
 /// The energy account of contacts between particles.
 namespace dust::particles {
 
-/// Of a batch, after the laws; the histories stand in the columns. `contacts` are the entries of
-/// the batch, or null: those from `first` on.
-void record_work(const ContactScene& scene, const PairLaws& law, const contact::PairView& pairs,
-                 const std::int32_t* contacts, std::size_t first, std::size_t count,
-                 contact::BatchColumns& columns, EnergySums& sums);
+/// Of a batch, after the laws; the histories stand in the columns.
+void record_work(const ContactScene& scene, const PairBatch& batch, EnergySums& sums);
 /// Of pairs that part in this step: the search for those that touch clears their histories.
 void record_separated(const ContactScene& scene, const LawRange& range,
                       const contact::PairView& pairs, EnergySums& sums);

@@ -114,6 +114,7 @@ struct ContactForces::WallBatch {
   [[nodiscard]] bool reaches(const Surface& other, std::int32_t row) const;
   [[nodiscard]] bool is_handed_over(std::size_t entry) const;
   void record_work();
+  void note_loads();
   void record_separated(std::size_t entry);
   void evaluate() {
     if (count == 0) return;
@@ -126,9 +127,7 @@ struct ContactForces::WallBatch {
     if (scene.work != nullptr) note_work();
     if (tile.energy != nullptr) record_work();
     contact::store_history(list, contacts, count, groups, columns);
-    if (!tile.wall_sums.empty()) {
-      note_wall_loads(scene, tile, surface, law, {rows, count}, is_new, columns);
-    }
+    if (!tile.wall_sums.empty()) note_loads();
     contact::scatter_single(local_rows, count, columns, force);
     tile.contacts += law.cohesion ? in_touch(columns, count) : static_cast<std::int64_t>(count);
     count = 0;
@@ -230,12 +229,10 @@ void ContactForces::walls(const ContactScene& scene, Tile range, TileContacts& c
 
 /// Books what a batch did to a wall. The velocity columns hold the relative velocity of the contact
 /// points, the separation columns that of the surface.
-void ContactForces::note_wall_loads(const ContactScene& scene, OfTile& tile, const Surface& surface,
-                                    const PairLaws& law, std::span<const std::int32_t> rows,
-                                    const bool* is_new, BatchColumns& columns) {
+void ContactForces::WallBatch::note_loads() {
   using B = BatchColumns;
   double* sums = tile.wall_sums.data() + WallLoads::k_sums * static_cast<std::size_t>(surface.wall);
-  for (std::size_t q = 0; q < rows.size(); ++q) {
+  for (std::size_t q = 0; q < count; ++q) {
     const auto get = [&](int column) {
       return sdk::Vec3{columns.column(column)[q], columns.column(column + 1)[q],
                        columns.column(column + 2)[q]};

@@ -5,15 +5,14 @@ namespace dust::particles {
 
 using contact::BatchColumns;
 
-bool find_weight_ratios(const ParticleStore& particles, const contact::PairView& pairs,
-                        const std::int32_t* contacts, std::size_t first, std::size_t count,
-                        BatchColumns& columns) {
+bool find_weight_ratios(const ParticleStore& particles, const PairBatch& batch) {
+  const contact::PairView& pairs = batch.pairs;
+  BatchColumns& columns = batch.columns;
   bool has_scales = false;
   double* scale_i = columns.column(BatchColumns::scale_i);
   double* scale_j = columns.column(BatchColumns::scale_j);
-  for (std::size_t q = 0; q < count; ++q) {
-    const std::size_t entry =
-        contacts == nullptr ? first + q : static_cast<std::size_t>(contacts[q]);
+  for (std::size_t q = 0; q < batch.count; ++q) {
+    const std::size_t entry = batch.entry(q);
     const double wi = particles.weight(static_cast<std::size_t>(pairs.a[entry]));
     const double wj = particles.weight(static_cast<std::size_t>(pairs.b[entry]));
     scale_i[q] = felt_share(wi, wj);

@@ -182,10 +182,11 @@ void ContactList::append(const ContactList& other) {
 }
 
 /// Sorts entries of the pair list into those in touch and those that only approach, without
-/// branches on either, which no processor foretells. `is_marked_only`: looks at those with a mark
-/// alone. Returns whether every contact in touch was found.
-bool ContactList::choose(const PairList& outer, std::span<const std::uint8_t> approach,
-                         bool is_marked_only, bool may_persist, Scratch& scratch) const {
+/// branches on either, which no processor foretells. Returns whether every contact in touch was
+/// found.
+bool ContactList::choose(const PairList& outer, std::span<const std::uint8_t> approach, Look look,
+                         Scratch& scratch) const {
+  const bool is_marked_only = look == Look::at_marked;
   scratch.expect(outer.size());
   const std::int32_t* const a = outer.a().data();
   const std::int32_t* const b = outer.b().data();
@@ -215,7 +216,8 @@ bool ContactList::choose(const PairList& outer, std::span<const std::uint8_t> ap
       }
     }
     LawRange part{range.law, range.surface, number(), 0, 0};
-    const std::ptrdiff_t persistent = may_persist ? (touching_end - touching) / 8 * 8 : 0;
+    const std::ptrdiff_t persistent =
+        partners_ == PartnerKind::particles ? (touching_end - touching) / 8 * 8 : 0;
     end = std::copy_n(touching, persistent, end);
     part.persistent_end = number();
     end = std::merge(touching + persistent, touching_end, scratch.apart.data(), approaches, end,
@@ -230,11 +232,10 @@ bool ContactList::choose(const PairList& outer, std::span<const std::uint8_t> ap
 /// Chooses first and copies then. What is in touch is near, and so has a mark; a law that holds on
 /// farther than that (a bridge that is stretched) has every entry looked at.
 std::span<const std::int32_t> ContactList::prune(const PairList& outer,
-                                                 std::span<const std::uint8_t> approach,
-                                                 bool may_persist) {
+                                                 std::span<const std::uint8_t> approach) {
   thread_local Scratch scratch;
-  if (!choose(outer, approach, true, may_persist, scratch)) {
-    choose(outer, approach, false, may_persist, scratch);
+  if (!choose(outer, approach, Look::at_marked, scratch)) {
+    choose(outer, approach, Look::at_all, scratch);
   }
   const std::int32_t* const a = outer.a().data();
   const std::int32_t* const b = outer.b().data();

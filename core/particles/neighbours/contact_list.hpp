@@ -46,12 +46,12 @@ class ContactList {
   void set_ranges(std::vector<LawRange> ranges) { ranges_ = std::move(ranges); }
 
   /// Becomes the entries of `outer` that are in touch, with their histories, and those that may
-  /// come to touch: `approach`, one contact::Approach per entry. `may_persist`: contacts in touch
-  /// come first in their range, in eights. Returns the entries of `outer` that have overlapped for
-  /// some steps though no contact of theirs is known: the list before did not hold them. Valid
-  /// until the next call by this thread.
-  std::span<const std::int32_t> prune(const PairList& outer, std::span<const std::uint8_t> approach,
-                                      bool may_persist);
+  /// come to touch: `approach`, one contact::Approach per entry. Between particles, contacts in
+  /// touch come first in their range, in eights: the persistent ones. Returns the entries of
+  /// `outer` that have overlapped for some steps though no contact of theirs is known: the list
+  /// before did not hold them. Valid until the next call by this thread.
+  std::span<const std::int32_t> prune(const PairList& outer,
+                                      std::span<const std::uint8_t> approach);
 
   /// The histories of persistent contacts into columns, block by block, in the memory their rows
   /// had: there laws work on them. Nothing where they are so already.
@@ -69,8 +69,9 @@ class ContactList {
  private:
   struct Scratch;
   struct Choice;
-  bool choose(const PairList& outer, std::span<const std::uint8_t> approach, bool is_marked_only,
-              bool may_persist, Scratch& scratch) const;
+  enum class Look { at_marked, at_all };
+  bool choose(const PairList& outer, std::span<const std::uint8_t> approach, Look look,
+              Scratch& scratch) const;
   void take(const Scratch& scratch, std::size_t count);
 
   PartnerKind partners_;

@@ -113,16 +113,16 @@ void InnerList::prune_tile(const Pruning& p, OfTile& tile, Tile range, GhostExch
   thread_local std::vector<std::uint8_t> approach;
   const PairList& near = p.in.outer.pairs(static_cast<std::size_t>(range.index));
   approach.resize(near.size());
-  contact::mark_approaching(p.trajectories, p.in.scene.images, p.look_ahead, near.a().data(),
-                            near.b().data(), near.size(), approach.data());
+  contact::mark_approaching(p.trajectories, p.in.scene.images, p.look_ahead, near.a(), near.b(),
+                            approach.data());
   TileContacts& contacts = tile.contacts;
-  tile.missed_onsets = count_missed(p.in.scene, near, contacts.pairs.prune(near, approach, true));
+  tile.missed_onsets = count_missed(p.in.scene, near, contacts.pairs.prune(near, approach));
   const PairList& walls = p.in.outer.walls(static_cast<std::size_t>(range.index));
   approach.resize(walls.size());
   for (std::size_t q = 0; q < walls.size(); ++q) {
     approach[q] = may_meet(p, walls.a()[q], walls.b()[q]) ? contact::k_may_meet : 0;
   }
-  contacts.walls.prune(walls, approach, false);
+  contacts.walls.prune(walls, approach);
   contacts.nearest_triangles.assign(contacts.walls.size(), -1);
   ghosts.find_ghosts(range, contacts.pairs.a(), contacts.pairs.b(), contacts.slots);
   const auto activate_own = [&](std::int32_t row) {
@@ -143,11 +143,11 @@ std::int64_t InnerList::prune_fine(const Pruning& p) {
     if (j < 0) {
       approach[q] = may_meet(p, i, -1 - j) ? contact::k_may_meet : 0;
     } else {
-      contact::mark_approaching(p.trajectories, p.in.scene.images, p.look_ahead, &i, &j, 1,
+      contact::mark_approaching(p.trajectories, p.in.scene.images, p.look_ahead, {&i, 1}, {&j, 1},
                                 &approach[q]);
     }
   }
-  const std::int64_t missed = count_missed(p.in.scene, near, fine_.prune(near, approach, false));
+  const std::int64_t missed = count_missed(p.in.scene, near, fine_.prune(near, approach));
   for (std::size_t e = 0; e < fine_.size(); ++e) {
     activate(fine_.a()[e]);
     if (fine_.b()[e] >= 0) activate(fine_.b()[e]);

@@ -33,7 +33,7 @@ struct ListScene {
     return static_cast<double>(steps) * step;
   }
   [[nodiscard]] const double* position(std::size_t row) const { return particles.position(row); }
-  [[nodiscard]] double radius(std::size_t row) const { return position(row)[3]; }
+  [[nodiscard]] double radius(std::size_t row) const { return particles.radius(row); }
   [[nodiscard]] double speed2(std::size_t row) const {
     const double* v = particles.velocity(row);
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];

@@ -328,7 +328,7 @@ bool can_approach(const SearchInput& in, std::int32_t i, std::int32_t j, double 
 /// goes to the coarser. `balls`: the swept one of each particle.
 std::vector<Level> levels_of(const SearchInput& in, std::vector<Ball>& balls) {
   double largest = 0.0;
-  for (std::size_t n = 0; n < in.count; ++n) largest = std::max(largest, in.position[4 * n + 3]);
+  for (std::size_t n = 0; n < in.count; ++n) largest = std::max(largest, in.radius(n));
   std::vector<std::vector<std::int32_t>> members;
   balls.resize(in.count);
   for (std::size_t n = 0; n < in.count; ++n) {
@@ -336,14 +336,14 @@ std::vector<Level> levels_of(const SearchInput& in, std::vector<Ball>& balls) {
     const double* v = in.velocity + in.velocity_stride * n;
     // ceil(log2(ratio) - 1e-9) - 1 without the logarithm.
     int exponent = 0;
-    const double rest = std::frexp(largest / p[3], &exponent);
+    const double rest = std::frexp(largest / in.radius(n), &exponent);
     const int level = std::max(0, rest > 0.5 * (1.0 + 1e-9) ? exponent - 1 : exponent - 2);
     if (members.size() <= static_cast<std::size_t>(level))
       members.resize(static_cast<std::size_t>(level) + 1);
     members[static_cast<std::size_t>(level)].push_back(static_cast<std::int32_t>(n));
     const double way = 0.5 * in.lifetime;
     balls[n] = {p[0] + way * v[0], p[1] + way * v[1], p[2] + way * v[2],
-                p[3] + in.skin[4 * n + 3] + 0.5 * in.range +
+                in.radius(n) + in.skin_of(n) + 0.5 * in.range +
                     way * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])};
   }
   std::vector<Level> levels;
@@ -375,8 +375,8 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
     const Level& own = levels[blocks[b].level];
     for (std::size_t place = blocks[b].begin; place < blocks[b].end; ++place) {
       const std::int32_t i = own.row(place);
-      const auto n = 4 * static_cast<std::size_t>(i);
-      const double reach = in.position[n + 3] + in.skin[n + 3] + in.range;
+      const auto n = static_cast<std::size_t>(i);
+      const double reach = in.radius(n) + in.skin_of(n) + in.range;
       for (std::size_t l = 0; l <= blocks[b].level; ++l) {
         // Of its own level a particle looks at those behind it: each pair is found once.
         const bool is_own = l == blocks[b].level;
@@ -385,8 +385,8 @@ std::vector<std::vector<RowPair>> search_pairs(const SearchInput& in, std::size_
         const std::size_t count = level.near(own.ball(place), is_own ? place + 1 : 0, close);
         for (std::size_t k = 0; k < count; ++k) {
           const std::int32_t j = level.row(static_cast<std::size_t>(close[k]));
-          const auto m = 4 * static_cast<std::size_t>(j);
-          if (can_approach(in, i, j, reach + in.position[m + 3] + in.skin[m + 3])) {
+          const auto m = static_cast<std::size_t>(j);
+          if (can_approach(in, i, j, reach + in.radius(m) + in.skin_of(m))) {
             out.push_back({i, j});
           }
         }

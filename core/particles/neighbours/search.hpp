@@ -20,6 +20,9 @@ struct SearchInput {
   double range = 0.0;               ///< [m] beyond touch
   double origin[3] = {0, 0, 0};
   double period[3] = {0, 0, 0};  ///< [m] 0 = not periodic
+
+  [[nodiscard]] double radius(std::size_t n) const { return position[4 * n + 3]; }
+  [[nodiscard]] double skin_of(std::size_t n) const { return skin[4 * n + 3]; }
 };
 
 /// All places a grain may be at until the lifetime is over: the middle of its straight path and

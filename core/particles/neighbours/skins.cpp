@@ -26,7 +26,7 @@ constexpr double k_dense_edge = 0.2;
 
 void choose_skins(const SkinInput& in, ReferenceTrajectories& trajectories) {
   for (std::size_t n = 0; n < in.coarse_count; ++n) {
-    trajectories.set_skin(n, in.skin_in_diameters * 2.0 * in.position[4 * n + 3]);
+    trajectories.set_skin(n, in.skin_in_diameters * in.diameter(n));
   }
   if (in.coarse_count == in.count) return;
   const double isolated = k_isolated_skin * in.largest_diameter;
@@ -41,7 +41,7 @@ void choose_skins(const SkinInput& in, ReferenceTrajectories& trajectories) {
     ++dense[key];
   }
   for (std::size_t n = in.coarse_count; n < in.count; ++n) {
-    const double diameter = 2.0 * in.position[4 * n + 3];
+    const double diameter = in.diameter(n);
     const std::int32_t here = dense[key_of[n - in.coarse_count]];
     const double spacing = edge / std::cbrt(static_cast<double>(here));
     trajectories.set_skin(

@@ -17,6 +17,8 @@ struct SkinInput {
   double skin_in_diameters = 0.0;  ///< of coarse particles
   double largest_diameter = 0.0;   ///< [m]
   sdk::Vec3 origin;                ///< [m] of the cells in which crowds are counted
+
+  [[nodiscard]] double diameter(std::size_t n) const { return 2.0 * position[4 * n + 3]; }
 };
 
 /// The skins of the next outer list: of a coarse particle in proportion to its diameter, of a fine

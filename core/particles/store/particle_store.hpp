@@ -60,6 +60,7 @@ class ParticleStore {
   [[nodiscard]] const double* half_rotation(std::size_t row) const { return rotation(row) + 4; }
   /// [s] half a step, less for a particle that has just come.
   [[nodiscard]] double time_since_kick(std::size_t row) const { return half_velocity(row)[3]; }
+  void set_time_since_kick(std::size_t row, double time) { half_velocity(row)[3] = time; }
   [[nodiscard]] std::int64_t id(std::size_t row) const { return id_[row]; }
   [[nodiscard]] std::int32_t material(std::size_t row) const { return material_[row]; }
   [[nodiscard]] std::int32_t population(std::size_t row) const { return population_[row]; }
@@ -69,6 +70,8 @@ class ParticleStore {
     static constexpr double k_none[4] = {};
     return has_fluid_ ? of_fluid_.drag.data() + 4 * row : k_none;
   }
+  /// [1/s]
+  [[nodiscard]] double relaxation_rate(std::size_t row) const { return drag(row)[3]; }
   /// What drag leaves of a velocity difference in a step: exp(-k dt); 1 without a fluid.
   [[nodiscard]] double decay(std::size_t row) const {
     return has_fluid_ ? of_fluid_.decay[2 * row] : 1.0;

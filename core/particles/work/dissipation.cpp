@@ -91,18 +91,17 @@ void find_dissipation(const PairLaws& law, BatchColumns& columns, std::size_t co
   add_ahead(columns, count, step, is_rolling, normal_work, tangential_work);
 }
 
-void scatter_dissipation(const Dissipation& out, const contact::Places* places,
-                         const std::int32_t* contacts, std::size_t count, bool has_scales,
-                         BatchColumns& columns, double* force) {
-  const double* const scale_i = columns.column(B::scale_i);
-  const double* const scale_j = columns.column(B::scale_j);
+void scatter_dissipation(const Dissipation& out, const PairBatch& batch,
+                         std::span<const contact::Places> slots, bool has_scales, double* force) {
+  const double* const scale_i = batch.columns.column(B::scale_i);
+  const double* const scale_j = batch.columns.column(B::scale_j);
   const auto add = [&](std::int32_t side, std::size_t q, double half) {
     double* row = force + k_force_row * static_cast<std::size_t>(side);
-    row[3] += half * out.normal[q];
-    row[7] += half * out.tangential[q];
+    row[k_normal_work] += half * out.normal[q];
+    row[k_tangential_work] += half * out.tangential[q];
   };
-  for (std::size_t q = 0; q < count; ++q) {
-    const contact::Places& place = contacts == nullptr ? places[q] : places[contacts[q]];
+  for (std::size_t q = 0; q < batch.count; ++q) {
+    const contact::Places& place = slots[batch.entry(q)];
     add(place.a, q, has_scales ? 0.5 * scale_i[q] : 0.5);
     add(place.b, q, has_scales ? 0.5 * scale_j[q] : 0.5);
   }

@@ -3,9 +3,11 @@
 
 #include "contact/batch.hpp"
 #include "contact/batch_kernels.hpp"
+#include "particles/forces/pair_batch.hpp"
 #include "particles/pair_law_table.hpp"
 
 #include <cstddef>
+#include <span>
 
 namespace dust::particles {
 
@@ -23,12 +25,10 @@ struct Dissipation {
 void find_dissipation(const PairLaws& law, contact::BatchColumns& columns, std::size_t count,
                       double step, std::size_t first, Dissipation& out);
 
-/// Adds half of it to each side, in the fourth and eighth numbers of the rows of forces; where
-/// statistical weights differ (`has_scales`), the share of its half that goes with the share of the
-/// force that the side feels: the work per real grain. `contacts` may be null: the contacts stand
-/// in the order of `places`.
-void scatter_dissipation(const Dissipation& out, const contact::Places* places,
-                         const std::int32_t* contacts, std::size_t count, bool has_scales,
-                         contact::BatchColumns& columns, double* force);
+/// Adds half of it to each side, as k_normal_work and k_tangential_work of the rows of forces;
+/// where statistical weights differ (`has_scales`), the share of its half that goes with the share
+/// of the force that the side feels: the work per real grain. `slots` by entry of the batch's list.
+void scatter_dissipation(const Dissipation& out, const PairBatch& batch,
+                         std::span<const contact::Places> slots, bool has_scales, double* force);
 
 }  // namespace dust::particles

@@ -36,15 +36,14 @@ void Departures::note(const particles::GrainRows& grains,
                       const Moment& now) {
   std::array<std::vector<Grain>, 6> found;
   for (std::size_t n = 0; n < grains.count; ++n) {
-    const double* p = grains.position + 4 * n;
-    const sdk::Vec3 place{p[0], p[1], p[2]};
+    const sdk::Vec3 place = grains.centre(n);
     const int side = side_of(place);
     if (side < 0 || is_taken(openings, rounding, side, place)) continue;
     Side& through = sides_[static_cast<std::size_t>(side)];
     ++through.count;
-    through.mass += grains.weight[n] / grains.velocity_of(n)[3];
+    through.mass += grains.weight[n] / grains.inverse_mass(n);
     found[static_cast<std::size_t>(side)].push_back(
-        {grains.id[n], now.step, now.time, 2.0 * p[3], place});
+        {grains.id[n], now.step, now.time, grains.diameter(n), place});
   }
   for (std::size_t side = 0; side < found.size(); ++side) {
     auto& all = found[side];

@@ -90,9 +90,8 @@ void ForceShares::sample(const particles::GrainRows& grains,
   for (std::size_t n = 0; n < grains.count; ++n) {
     const double weight = grains.weight[n];
     const double* v = grains.velocity_of(n);
-    const double mass = 1.0 / v[3];
-    const double* x = grains.position + 4 * n;
-    const double volume = sdk::sphere_volume(2.0 * x[3]);
+    const double mass = grains.mass(n);
+    const double volume = sdk::sphere_volume(grains.diameter(n));
     const auto add = [&](ForceKind kind, double force) { sums_[index(kind)] += weight * force; };
     add(ForceKind::gravity, mass * g);
     add(ForceKind::buoyancy, in.fluid_density * volume * g);
@@ -104,7 +103,7 @@ void ForceShares::sample(const particles::GrainRows& grains,
     Vec3 fluid;
     for (int d = 0; d < 3; ++d) fluid[d] = mass * action[3] * (action[d] - v[d]);
     if (gradient.is_there()) {
-      const Vec3 pressure = -volume * gradient.at({x[0], x[1], x[2]});
+      const Vec3 pressure = -volume * gradient.at(grains.centre(n));
       add(ForceKind::pressure_gradient, norm(pressure));
       fluid -= pressure;
     }

@@ -61,8 +61,8 @@ double LiberationStage::coarse_graining(std::size_t row) const {
   return coarse_graining_[static_cast<std::size_t>(particles_.rows().material[row])];
 }
 
-bool LiberationStage::is_in_feed_zone(const double* position) const {
-  const sdk::Vec3 x = dust_.inside({position[0], position[1], position[2]});
+bool LiberationStage::is_in_feed_zone(sdk::Vec3 centre) const {
+  const sdk::Vec3 x = dust_.inside(centre);
   return std::any_of(feed_zones_.begin(), feed_zones_.end(), [&](const scenario::FeedZoneSpec& z) {
     return x[0] >= z.min.x && x[0] <= z.max.x && x[1] >= z.min.y && x[1] <= z.max.y &&
            x[2] >= z.min.z && x[2] <= z.max.z;
@@ -81,7 +81,7 @@ void LiberationStage::find_impacts() {
     const particles::ContactWork::Energy energy = work.sum(row);
     const double acceleration = work.acceleration(row);
     if (!(energy.sum() > 0.0 || acceleration > 0.0)) continue;
-    if (is_in_feed_zone(grains.position + 4 * row)) continue;
+    if (is_in_feed_zone(grains.centre(row))) continue;
     if (energy.sum() > 0.0) add_impact_energy(row, grains.weight[row]);
     rows_.push_back(static_cast<std::int32_t>(row));
     // Impacts of grains of one stiffness are alike in form: the smaller ones' are l times shorter.
@@ -112,7 +112,7 @@ void LiberationStage::find_wind() {
   const particles::GrainRows grains = particles_.rows();
   rows_.clear();
   for (std::size_t row = 0; row < grains.count; ++row) {
-    if (is_in_feed_zone(grains.position + 4 * row)) continue;
+    if (is_in_feed_zone(grains.centre(row))) continue;
     rows_.push_back(static_cast<std::int32_t>(row));
   }
   load_columns();
@@ -124,14 +124,13 @@ void LiberationStage::find_wind() {
     const auto row = static_cast<std::size_t>(rows_[q]);
     const double* wind = grains.wind + 4 * row;
     const double* v = grains.velocity_of(row);
-    const double* x = grains.position + 4 * row;
     const double slip =
         wind[3] > 0.0 ? norm(sdk::Vec3{wind[0] - v[0], wind[1] - v[1], wind[2] - v[2]}) : 0.0;
     // A coarse particle drags as all that it stands for do.
     const double drag = wind[3] / cube(coarse_graining(row)) * slip;
     c.slip[q] = slip;
     c.shear[q] = drag / (std::numbers::pi * c.diameter[q] * c.diameter[q]);
-    c.void_fraction[q] = dust_.void_fraction_at({x[0], x[1], x[2]});
+    c.void_fraction[q] = dust_.void_fraction_at(grains.centre(row));
   }
 }
 
@@ -147,8 +146,8 @@ void LiberationStage::load_columns() {
     const scenario::DustLoadSpec& fresh = loads_[static_cast<std::size_t>(grains.material[row])];
     const auto load = particles_.dust_load(row);
     const double l = coarse_graining(row);
-    c.diameter[q] = 2.0 * grains.position[4 * row + 3] / l;
-    c.mass[q] = 1.0 / grains.velocity_of(row)[3] / cube(l);
+    c.diameter[q] = grains.diameter(row) / l;
+    c.mass[q] = grains.mass(row) / cube(l);
     c.moisture[q] = fresh.moisture;
     for (std::size_t n = 0; n < classes_; ++n) {
       c.load[place(q, n)] = load[n] / cube(l);
@@ -191,7 +190,6 @@ void LiberationStage::give_to_air(bool is_by_wind) {
   const particles::GrainRows grains = particles_.rows();
   for (std::size_t q = 0; q < rows_.size(); ++q) {
     const auto row = static_cast<std::size_t>(rows_[q]);
-    const double* x = grains.position + 4 * row;
     const double weight = grains.weight[row];
     const double count = cube(coarse_graining(row));
     std::int32_t cell = -1;
@@ -204,7 +202,7 @@ void LiberationStage::give_to_air(bool is_by_wind) {
       }
       // All of them together; not more than there is by rounding.
       const double mass = std::min(count * of_one, particles_.dust_load(row)[n]);
-      if (cell < 0) cell = dust_.cell_with_gas({x[0], x[1], x[2]});
+      if (cell < 0) cell = dust_.cell_with_gas(grains.centre(row));
       if (cell < 0) {
         kept_back_ += weight * mass;
         continue;

@@ -73,7 +73,7 @@ class LiberationStage {
 
   /// l of the grain in a row: the law is asked about one of the l^3 grains that it stands for.
   [[nodiscard]] double coarse_graining(std::size_t row) const;
-  [[nodiscard]] bool is_in_feed_zone(const double* position) const;
+  [[nodiscard]] bool is_in_feed_zone(sdk::Vec3 centre) const;
   void find_impacts();
   void add_impact_energy(std::size_t row, double weight);
   void find_wind();

@@ -39,9 +39,8 @@ void Scavenging::find_meetings(const DustStage& dust, const particles::GrainRows
   speed_.resize(grains.count);
   flow_.resize(grains.count);
   for_all(grains.count, [&](std::size_t row) {
-    const double* x = grains.position + 4 * row;
     const double* v = grains.velocity_of(row);
-    cell_[row] = dust.cell_with_gas({x[0], x[1], x[2]});
+    cell_[row] = dust.cell_with_gas(grains.centre(row));
     speed_[row] =
         cell_[row] < 0 ? 0.0 : norm(dust.gas_velocity(cell_[row]) - sdk::Vec3{v[0], v[1], v[2]});
   });
@@ -51,7 +50,7 @@ void Scavenging::find_meetings(const DustStage& dust, const particles::GrainRows
 void Scavenging::find_flows(const airborne::DustClass& dust, const particles::GrainRows& grains) {
   for_all(grains.count, [&](std::size_t row) {
     const double l = coarse_graining_[static_cast<std::size_t>(grains.material[row])];
-    const double diameter = 2.0 * grains.position[4 * row + 3] / l;
+    const double diameter = grains.diameter(row) / l;
     flow_[row] =
         grains.weight[row] * l * l * l * airborne::cleared_flow(dust, diameter, speed_[row]);
   });

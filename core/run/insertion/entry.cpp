@@ -38,7 +38,7 @@ double largest_diameter(const std::vector<InsertionCandidate>& waiting,
   double largest = 0.0;
   for (const InsertionCandidate& e : waiting) largest = std::max(largest, e.grain.diameter);
   for (std::size_t n = 0; n < rows.count; ++n) {
-    largest = std::max(largest, 2.0 * rows.position[4 * n + 3]);
+    largest = std::max(largest, rows.diameter(n));
   }
   return largest;
 }
@@ -181,13 +181,13 @@ std::vector<InsertionCandidate> take_without_overlap(std::vector<InsertionCandid
     }
   }
   for (std::size_t n = 0; n < rows.count; ++n) {
-    const double* p = rows.position + 4 * n;
+    const double* p = rows.position_of(n);
     bool is_near = true;
     for (int d = 0; d < 3; ++d) {
       is_near &=
           scene.is_periodic[static_cast<std::size_t>(d)] || (p[d] > low[d] && p[d] < high[d]);
     }
-    if (is_near) grid.add({{p[0], p[1], p[2]}, p[3], rows.id != nullptr ? rows.id[n] : 0});
+    if (is_near) grid.add({rows.centre(n), rows.radius(n), rows.id != nullptr ? rows.id[n] : 0});
   }
   std::vector<InsertionCandidate> free;
   std::vector<InsertionCandidate> blocked;
@@ -227,8 +227,7 @@ bool LazySurroundings::is_free(Vec3 centre, double radius) const {
   if (!grid_) {
     grid_.emplace(scene_, std::max(largest_, largest_diameter(waiting_, rows_)));
     for (std::size_t n = 0; n < rows_.count; ++n) {
-      const double* p = rows_.position + 4 * n;
-      grid_->add({{p[0], p[1], p[2]}, p[3], rows_.id[n]});
+      grid_->add({rows_.centre(n), rows_.radius(n), rows_.id[n]});
     }
     for (const InsertionCandidate& e : waiting_)
       grid_->add({e.grain.position, 0.5 * e.grain.diameter, -1});

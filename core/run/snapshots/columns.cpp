@@ -56,8 +56,8 @@ void GrainTable::note_insertions(const particles::GrainRows& rows) {
   for (std::size_t n = 0; n < rows.count; ++n) {
     // Ids grow with time of entry, so an id beyond the newest of the last sample came in since.
     if (rows.id[n] > newest) {
-      insertions_.push_back(
-          {rows.id[n], rows.position[4 * n], rows.position[4 * n + 1], rows.position[4 * n + 2]});
+      const sdk::Vec3 x = rows.centre(n);
+      insertions_.push_back({rows.id[n], x.x, x.y, x.z});
     }
   }
   const auto by_id = [](const Place& a, const Place& b) { return a.id < b.id; };
@@ -91,8 +91,8 @@ void GrainTable::publish(const particles::GrainRows& rows, std::span<const doubl
       number_[k_rotation_x + d][n] = rows.rotation_of(row)[d];
       number_[k_force_x + d][n] = at < force.size() ? force[at] : 0.0;
     }
-    number_[k_diameter][n] = 2.0 * rows.position[4 * row + 3];
-    number_[k_mass][n] = 1.0 / rows.velocity_of(row)[3];
+    number_[k_diameter][n] = rows.diameter(row);
+    number_[k_mass][n] = rows.mass(row);
     number_[k_weight][n] = rows.weight[row];
   }
   take_places_before();

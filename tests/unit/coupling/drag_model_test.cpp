@@ -45,7 +45,7 @@ TEST_CASE(
         test::approx(0.8 * 3.0 * 2e-3 * test::k_air / test::k_air_viscosity).epsilon(1e-14));
   CHECK(model.reynolds(rows, 1, 0.8, 3.0) ==
         test::approx(0.5 * model.reynolds(rows, 0, 0.8, 3.0)).epsilon(1e-14));
-  const double mass = 1.0 / rows.velocity_of(1)[3];
+  const double mass = rows.mass(1);
   CHECK(model.fastest_relaxation(rows) == test::approx(4.0 * stokes / mass).epsilon(1e-14));
 }
 

@@ -243,7 +243,7 @@ TEST_CASE("grains larger than a cell shall be coupled over all their cells") {
   kernel.set(place, 2.5e-3);
   double sum = 0.0;
   double centre = 0.0;
-  coupling::WideStencil s;
+  coupling::MultiCellStencil s;
   kernel.stencil(0, world.coupling->void_fraction(), s);
   for (std::size_t n = 0; n < coupling::size(s); ++n) sum += s.weight[n];
   for (const auto& share : kernel.shares()) centre += share.weight * (share.i + 0.5) * 2e-3;

@@ -54,7 +54,7 @@ void blow(dust::particles::Dem& dem, Vec3 air) {
   for (std::size_t n = 0; n < rows.count; ++n) {
     double* action = rows.drag_relaxation + 4 * n;
     action[0] = air.x, action[1] = air.y, action[2] = air.z;
-    action[3] = 3e-3 / rows.position[4 * n + 3];
+    action[3] = 3e-3 / rows.radius(n);
   }
   dem.drag_relaxation_changed();
 }

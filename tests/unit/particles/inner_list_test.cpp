@@ -95,7 +95,7 @@ TEST_CASE("a pruned list shall hold what touches, with its history, and what may
   // Once as after a rebuild, then from a pruned list.
   for (int round = 0; round < 3; ++round) {
     CAPTURE(round);
-    const auto unseen = list.prune(outer, approach, true);
+    const auto unseen = list.prune(outer, approach);
     if (round == 0) {
       REQUIRE(unseen.size() == 1);
       CHECK(outer.a()[static_cast<std::size_t>(unseen[0])] == 7);

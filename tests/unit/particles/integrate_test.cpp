@@ -48,7 +48,7 @@ std::unique_ptr<dust::particles::Dem> hundred_pairs(bool has_flyer, bool has_air
     for (std::size_t n = 0; n < rows.count; ++n) {
       double* action = rows.drag_relaxation + 4 * n;
       action[0] = 0.3, action[1] = -0.2, action[2] = 0.1;
-      action[3] = 3e-3 / rows.position[4 * n + 3];
+      action[3] = 3e-3 / rows.radius(n);
     }
     dem->drag_relaxation_changed();
   }

@@ -30,7 +30,7 @@ Pairs brute_force(dust::particles::Dem& dem, Vec3 period, double margin) {
         if (period[d] > 0.0) x -= period[d] * std::round(x / period[d]);
         sum += x * x;
       }
-      const double reach = rows.position[4 * i + 3] + rows.position[4 * j + 3] + margin;
+      const double reach = rows.radius(i) + rows.radius(j) + margin;
       if (sum < reach * reach) {
         out.emplace(std::min(rows.id[i], rows.id[j]), std::max(rows.id[i], rows.id[j]));
       }

@@ -59,7 +59,7 @@ std::string state(Dem& dem) {
   const auto rows = dem.rows();
   std::string bytes;
   for (std::size_t n = 0; n < rows.count; ++n) {
-    for (const double* p : {rows.position + 4 * n, rows.velocity_of(n), rows.rotation_of(n)}) {
+    for (const double* p : {rows.position_of(n), rows.velocity_of(n), rows.rotation_of(n)}) {
       bytes.append(reinterpret_cast<const char*>(p), 3 * sizeof(double));
     }
   }
@@ -133,7 +133,7 @@ TEST_CASE("a stage between force and integration shall act in the step it stands
     const auto rows = dem->rows();
     double sum = 0.0;
     for (std::size_t n = 0; n < rows.count; ++n)
-      sum += rows.velocity_of(n)[2] / rows.velocity_of(n)[3];
+      sum += rows.velocity_of(n)[2] / rows.inverse_mass(n);
     return sum;
   };
   const double before = momentum();

@@ -58,7 +58,7 @@ TEST_CASE(
       dem->advance_fine();
     }
     dem->synchronise();
-    const double received = (dem->rows().velocity_of(0)[0] - speed) / dem->rows().velocity_of(0)[3];
+    const double received = (dem->rows().velocity_of(0)[0] - speed) / dem->rows().inverse_mass(0);
     spheres.end_step(dem->rows());
     const Vec3 now = total();
     CAPTURE(n);

@@ -24,8 +24,8 @@ double energy_of_gas(particles::Dem& dem, double edge, double young, Look&& look
     sum += 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / v[3];
   }
   for (const auto& [i, j] : dem.listed_pairs()) {
-    const double* a = rows.position + 4 * row_of[static_cast<std::size_t>(i)];
-    const double* b = rows.position + 4 * row_of[static_cast<std::size_t>(j)];
+    const double* a = rows.position_of(row_of[static_cast<std::size_t>(i)]);
+    const double* b = rows.position_of(row_of[static_cast<std::size_t>(j)]);
     double square = 0.0;
     for (int d = 0; d < 3; ++d) {
       double x = a[d] - b[d];

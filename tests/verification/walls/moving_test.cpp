@@ -56,7 +56,7 @@ TEST_CASE("sensors shall see how fast a wall moves where a grain touches it") {
       continue;
     }
     ++walls;
-    const double* at = dem->rows().position + 4 * c.row_i;
+    const double* at = dem->rows().position_of(static_cast<std::size_t>(c.row_i));
     const Vec3 wanted = rise + Vec3{-3.0 * at[1], 3.0 * at[0], 0.0};
     CHECK(norm(c.wall_velocity - wanted) < 1e-12);
   }
