@@ -40,7 +40,7 @@ class Dem::Impl {
  private:
   friend class Dem;
 
-  // dem.cpp
+  // impl.cpp
   void set_openings(std::vector<Opening> openings);
   void insert(std::span<const NewGrain> grains);
   void remove_escaped();
@@ -50,12 +50,14 @@ class Dem::Impl {
   /// ParticleStore::reorder.
   void reorder_rows(std::span<const std::int32_t> order);
   void rows_added();
-  void move_to(double time);
   TransferReport transfer_from(const Impl& other, std::span<const LawTransfer> laws,
                                bool keeps_dust);
+  void move_to(double time);
   void fill_last_force();
   /// What is saved or handed on has no inner list.
   void require_synchronised() const;
+  /// Sides and bodies that are surfaces.
+  [[nodiscard]] std::size_t wall_count() const;
   void gather_wall_loads();
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);
