@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/dust/dust_rates.hpp"
 
-#include "dust/sdk/ratio_of_means.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -127,7 +125,7 @@ void DustRates::report_part(sdk::FigureSink& sink, const std::string& name,
   if (!(material > 0.0)) return;
   const double per_load = k_grams_per_tonne / material;
   const bool is_even = means_.is_even(k_material_column);
-  const double of_ratio = sdk::error_of_ratio(means_, column, k_material_column);
+  const double of_ratio = means_.ratio_error(column, k_material_column);
   sink.figure(name + "/per_load", is_even ? per_load * rate : k_unknown, "g/t",
               is_even ? sdk::scaled_error(of_ratio, k_grams_per_tonne) : sdk::k_feed_not_even,
               sdk::detail(sdk::Quantity::mass_per_load));

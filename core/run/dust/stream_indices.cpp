@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/dust/stream_indices.hpp"
 
-#include "dust/sdk/ratio_of_means.hpp"
 #include "run/dust/dust_rates.hpp"
 
 #include <algorithm>
@@ -46,13 +45,11 @@ void StreamIndices::find_grains() {
   const particles::GrainRows grains = particles_.rows();
   const double layer = grid.spacing[axis_];
   for (std::size_t row = 0; row < grains.count; ++row) {
-    const double* position = grains.position + 4 * row;
-    const sdk::Vec3 x = grid.inside({position[0], position[1], position[2]});
-    const double* v = grains.velocity_of(row);
-    const double speed = down_ * v[axis_];
+    const sdk::Vec3 x = grid.inside(grains.centre(row));
+    const double speed = down_ * grains.velocity_of(row)[axis_];
     const double level = std::floor((x[axis_] - grid.origin[axis_]) / layer);
     if (!(speed > 0.0) || !(level >= 0.0 && level < static_cast<double>(levels_))) continue;
-    const double flow = grains.weight[row] / v[3] * speed / layer;
+    const double flow = grains.weight[row] / grains.inverse_mass(row) * speed / layer;
     const auto n = static_cast<std::size_t>(level);
     now_[column(n, mass_flow)] += flow;
     now_[column(n, solids_flow)] += flow * (1.0 - dust_.void_fraction_at(x));
@@ -147,7 +144,7 @@ void StreamIndices::report_impacts(sdk::FigureSink& sink) const {
   for (std::size_t n = k_power; n < first_level_; ++n) {
     if (means_.mean(n) > 0.0) {
       figures(liberation_->causes()[n - k_power], means_.mean(n), means_.error(n),
-              sdk::error_of_ratio(means_, n, k_load));
+              means_.ratio_error(n, k_load));
     }
   }
 }
@@ -168,9 +165,9 @@ void StreamIndices::report_levels(sdk::FigureSink& sink) const {
   sink.figure("entrained_air/flow", air(most), "m3/s", error,
               sdk::detail(sdk::Quantity::volume_rate));
   sink.figure("entrained_air/per_load", is_even ? k_tonne / load() * air(most) : k_unknown, "m3/t",
-              is_even ? sdk::scaled_error(
-                            sdk::error_of_ratio(means_, column(most, air_flow), k_load), k_tonne)
-                      : sdk::k_feed_not_even,
+              is_even
+                  ? sdk::scaled_error(means_.ratio_error(column(most, air_flow), k_load), k_tonne)
+                  : sdk::k_feed_not_even,
               sdk::FigureRole{});
   sink.figure("entrained_air/height", height(most), "m", sdk::k_no_estimate,
               sdk::detail(sdk::Quantity::length));

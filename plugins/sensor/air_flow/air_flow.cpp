@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "air_flow.hpp"
 
-#include <dust/sdk/main_figure.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -63,10 +62,7 @@ class AirFlow final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override { figures_.series(sink); }
-  void summary(sdk::FigureSink& sink) const override {
-    sdk::MainFigure with_main(sink, "net");
-    figures_.summary(with_main);
-  }
+  void summary(sdk::FigureSink& sink) const override { figures_.summary(sink); }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Air flow", "time [s]", "flow [m3/h]", "net", figures_.curve().x(),
                figures_.curve().y());

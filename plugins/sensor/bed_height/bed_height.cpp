@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bed_height.hpp"
 
-#include <dust/sdk/main_figure.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -62,10 +61,7 @@ class BedHeight final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override { figures_.series(sink); }
-  void summary(sdk::FigureSink& sink) const override {
-    sdk::MainFigure with_main(sink, "height");
-    figures_.summary(with_main);
-  }
+  void summary(sdk::FigureSink& sink) const override { figures_.summary(sink); }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Bed height", "time [s]", "height [m]", "surface", figures_.curve().x(),
                figures_.curve().y());

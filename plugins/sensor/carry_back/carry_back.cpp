@@ -2,7 +2,6 @@
 #include "carry_back.hpp"
 
 #include <dust/sdk/plugin.hpp>
-#include <dust/sdk/ratio_of_means.hpp>
 #include <dust/sdk/sampling.hpp>
 
 #include <limits>
@@ -182,9 +181,8 @@ class CarryBack final : public sdk::Sensor {
     const std::size_t feed = means_.columns() - 1;
     const bool is_of_feed = knows_feed() && means_.mean(first) > 0.0 && means_.is_even(feed);
     sink.figure(prefix + "grams_per_tonne", means_.known_mean(first) * per_flow, "g/t",
-                is_of_feed
-                    ? sdk::scaled_error(sdk::error_of_ratio(means_, first, feed), k_grams_per_tonne)
-                    : sdk::scaled_error(error(first), per_flow),
+                is_of_feed ? sdk::scaled_error(means_.ratio_error(first, feed), k_grams_per_tonne)
+                           : sdk::scaled_error(error(first), per_flow),
                 role);
   }
 

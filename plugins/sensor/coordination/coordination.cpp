@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coordination.hpp"
 
-#include <dust/sdk/main_figure.hpp>
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -69,16 +69,16 @@ class Coordination final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    figure(sink, "mean", values_[0], sdk::k_no_estimate);
-    figure(sink, "mechanical", values_[1], sdk::k_no_estimate);
+    at_moment(sink, "mean", values_[0]);
+    at_moment(sink, "mechanical", values_[1]);
   }
   void summary(sdk::FigureSink& sink) const override {
     static constexpr const char* k_names[k_columns] = {"mean", "mechanical", "rattler_share",
                                                        "wall_contacts_per_grain"};
-    sdk::MainFigure with_main(sink, k_names[0]);
     for (std::size_t n = 0; n < k_columns; ++n) {
-      figure(with_main, k_names[n], means_.mean(n), means_.error(n));
-      figure(sink, std::string(k_names[n]) + "_at_end", values_[n], sdk::k_no_estimate);
+      sink.figure(k_names[n], means_.mean(n), "1", means_.error(n),
+                  n == 0 ? sdk::overview(sdk::Quantity::ratio, 1) : k_ratio);
+      at_moment(sink, std::string(k_names[n]) + "_at_end", values_[n]);
     }
   }
   void report(sdk::ReportSink& sink) const override {
@@ -107,9 +107,10 @@ class Coordination final : public sdk::Sensor {
   static constexpr std::size_t k_columns = 4;
   static constexpr std::int32_t k_max = 16;  ///< more contacts are counted as so many
 
-  static void figure(sdk::FigureSink& sink, const std::string& name, double value, double error) {
-    sink.figure(name, value, "1", sdk::error_beside(value, error),
-                sdk::detail(sdk::Quantity::ratio));
+  static constexpr sdk::FigureRole k_ratio = sdk::detail(sdk::Quantity::ratio);
+
+  static void at_moment(sdk::FigureSink& sink, const std::string& name, double value) {
+    sink.figure(name, value, "1", sdk::error_beside(value, sdk::k_no_estimate), k_ratio);
   }
 
   Parameters p_;

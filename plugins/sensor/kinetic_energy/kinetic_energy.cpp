@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kinetic_energy.hpp"
 
-#include <dust/sdk/main_figure.hpp>
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -57,14 +57,18 @@ class KineticEnergy final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override {
-    for (std::size_t n = 0; n < k_columns; ++n)
-      figure(sink, k_names[n], n, values_[n], sdk::k_no_estimate);
+    for (std::size_t n = 0; n < k_columns; ++n) {
+      sink.figure(k_names[n], values_[n], k_units[n],
+                  sdk::error_beside(values_[n], sdk::k_no_estimate), sdk::detail(k_quantities[n]));
+    }
   }
   void summary(sdk::FigureSink& sink) const override {
-    sdk::MainFigure with_main(sink, k_names[0]);
     for (std::size_t n = 0; n < k_columns; ++n) {
-      figure(with_main, k_names[n], n, means_.mean(n), means_.error(n));
-      figure(sink, std::string(k_names[n]) + "_at_end", n, values_[n], sdk::k_no_estimate);
+      const sdk::Quantity quantity = k_quantities[n];
+      sink.figure(k_names[n], means_.mean(n), k_units[n], means_.error(n),
+                  n == 0 ? sdk::overview(quantity, 1) : sdk::detail(quantity));
+      sink.figure(std::string(k_names[n]) + "_at_end", values_[n], k_units[n],
+                  sdk::error_beside(values_[n], sdk::k_no_estimate), sdk::detail(quantity));
     }
     sink.figure("is_settled", is_settled_ ? 1.0 : 0.0, "1", sdk::Quantity::number);
     const double settled_at = is_settled_ ? settled_at_ : sdk::k_no_value;
@@ -99,12 +103,6 @@ class KineticEnergy final : public sdk::Sensor {
   static constexpr sdk::Quantity k_quantities[k_columns] = {
       sdk::Quantity::energy, sdk::Quantity::energy, sdk::Quantity::energy,
       sdk::Quantity::granular_temperature};
-
-  static void figure(sdk::FigureSink& sink, const std::string& name, std::size_t column,
-                     double value, double error) {
-    sink.figure(name, value, k_units[column], sdk::error_beside(value, error),
-                sdk::detail(k_quantities[column]));
-  }
 
   Parameters p_;
   /// At the last sample.

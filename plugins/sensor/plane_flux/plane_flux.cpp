@@ -3,7 +3,6 @@
 
 #include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
-#include <dust/sdk/ratio_of_means.hpp>
 #include <dust/sdk/rectangle.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -205,7 +204,7 @@ class PlaneFlux final : public sdk::Sensor {
                              : means_.known_mean(rate);
     // Of a batch the load is known; that of a feed varies with what passes.
     if (knows_feed() && emitted > 0.0 && means_.is_even(means_.columns() - 1)) {
-      const double of_ratio = sdk::error_of_ratio(means_, rate, means_.columns() - 1);
+      const double of_ratio = means_.ratio_error(rate, means_.columns() - 1);
       error = formula::rate_error(of_ratio < 0.0 ? of_ratio : of_ratio * emitted / duration,
                                   counted * duration, squares_[rate], duration);
     }

@@ -2,7 +2,6 @@
 #include "pressure_drop.hpp"
 
 #include <dust/sdk/fluid_cells.hpp>
-#include <dust/sdk/main_figure.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -71,10 +70,7 @@ class PressureDrop final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override { figures_.series(sink); }
-  void summary(sdk::FigureSink& sink) const override {
-    sdk::MainFigure with_main(sink, "pressure_drop");
-    figures_.summary(with_main);
-  }
+  void summary(sdk::FigureSink& sink) const override { figures_.summary(sink); }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Pressure drop", "time [s]", "pressure [Pa]", "from - to", figures_.curve().x(),
                figures_.curve().y());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "segregation.hpp"
 
-#include <dust/sdk/main_figure.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -86,10 +85,7 @@ class Segregation final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override { figures_.series(sink); }
-  void summary(sdk::FigureSink& sink) const override {
-    sdk::MainFigure with_main(sink, "mixing_index");
-    figures_.summary(with_main);
-  }
+  void summary(sdk::FigureSink& sink) const override { figures_.summary(sink); }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Mixing of fine and coarse grains", "time [s]", "mixing index [1]", "all grains",
                figures_.curve().x(), figures_.curve().y());

@@ -2,7 +2,6 @@
 #include "wall_shear.hpp"
 
 #include <dust/sdk/fluid_cells.hpp>
-#include <dust/sdk/main_figure.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -82,10 +81,7 @@ class WallShear final : public sdk::Sensor {
   }
 
   void series(sdk::FigureSink& sink) const override { figures_.series(sink); }
-  void summary(sdk::FigureSink& sink) const override {
-    sdk::MainFigure with_main(sink, "mean");
-    figures_.summary(with_main);
-  }
+  void summary(sdk::FigureSink& sink) const override { figures_.summary(sink); }
   void report(sdk::ReportSink& sink) const override {
     sink.curve("Wall shear stress", "time [s]", "stress [Pa]", p_.side, figures_.curve().x(),
                figures_.curve().y());

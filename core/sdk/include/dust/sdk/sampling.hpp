@@ -3,6 +3,7 @@
 
 #include "dust/sdk/archive.hpp"
 #include "dust/sdk/error.hpp"
+#include "dust/sdk/overview.hpp"
 #include "dust/sdk/parameter_schema.hpp"
 #include "dust/sdk/sensor.hpp"
 
@@ -230,14 +231,20 @@ class BatchMeans {
   /// mean of the residuals \f$ x_{top} - R\, x_{base} \f$ over mean(base) (Cochran 1977, Sampling
   /// Techniques, eq. 6.13). What both have in common is no error of their ratio. The reasons why
   /// there is none are those of error(); k_no_estimate where mean(base) is 0.
+  ///
+  /// Where mean(top) has no error, its ratio has none either, and for the same reason. The
+  /// residuals of a feed that comes in lumps scatter so much that the memory of the top is lost in
+  /// them: a mean that has not settled would look settled once it is divided.
   [[nodiscard]] double ratio_error(std::size_t top, std::size_t base) const {
+    const double of_top = error(top);
+    if (of_top < 0.0) return of_top;
     const double below = mean(base);
     if (below == 0.0) return k_no_estimate;
     const double ratio = mean(top) / below;
-    const double error =
+    const double of_residuals =
         error_of([&](std::size_t b) { return batch_mean(b, top) - ratio * batch_mean(b, base); },
                  0.0, mean(top), std::numeric_limits<double>::infinity());
-    return error < 0.0 ? error : error / std::abs(below);
+    return of_residuals < 0.0 ? of_residuals : of_residuals / std::abs(below);
   }
   /// Standard error of a function of several means, in its unit, to first order: that of the mean
   /// of \f$ \sum_c g_c x_c \f$ with `partials` its derivatives \f$ g_c \f$ by the means, as many
@@ -557,7 +564,8 @@ class KnownMeans {
 };
 
 /// The state of a sensor whose figures are those of a moment: the last ones for series.csv, their
-/// means with errors for the summary, the first one against time for the report.
+/// means with errors for the summary, the first one against time for the report. The mean of the
+/// first is what a reader asks of the sensor before anything else (overview).
 class SampledFigures {
  public:
   struct Column {
@@ -587,7 +595,8 @@ class SampledFigures {
   void summary(FigureSink& sink) const {
     for (std::size_t n = 0; n < columns_.size(); ++n) {
       const auto& [name, unit, quantity] = columns_[n];
-      sink.figure(name, means_.mean(n), unit, means_.error(n), detail(quantity));
+      sink.figure(name, means_.mean(n), unit, means_.error(n),
+                  n == 0 ? overview(quantity, 1) : detail(quantity));
       sink.figure(std::string(name) + "_at_end", values_[n], unit,
                   error_beside(values_[n], k_no_estimate), detail(quantity));
     }
