@@ -30,20 +30,18 @@ namespace {
 
 using Result = std::optional<scenario::ReadResult>;
 
-void check_sides(const scenario::ReadResult& read, const registry::Registry& registry,
+void check_sides(const scenario::ReadResult& read, const SideModels& sides,
                  scenario::Diagnostics& diagnostics) {
-  const scenario::Setup& setup = read.setup;
-  const SideModelSet sides(setup, registry);
-  check_flow(setup, sides.models(), diagnostics);
+  check_flow(read.setup, sides, diagnostics);
   if (!diagnostics.has_errors()) {
-    check_driven_speed(setup, sides.models(), read.dust.openings, diagnostics);
-    check_opening_cells(setup, read.dust.openings, diagnostics);
+    check_driven_speed(read.setup, sides, read.dust.openings, diagnostics);
+    check_opening_cells(read.setup, read.dust.openings, diagnostics);
   }
-  check_wall_shear(setup, sides.models(), registry, diagnostics);
 }
 
 void check_sensors(const scenario::Setup& setup, const ParticleModels& models,
-                   const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
+                   const SideModels& sides, const registry::Registry& registry,
+                   scenario::Diagnostics& diagnostics) {
   const sdk::WorldView world = empty_world(setup, models.class_diameters);
   for (const scenario::SensorSpec& spec : setup.sensors) {
     const registry::Entry* entry = registry.find(spec.model.kind, spec.model.name);
@@ -53,14 +51,15 @@ void check_sensors(const scenario::Setup& setup, const ParticleModels& models,
     // One that is refused already need not be asked.
     if (diagnostics.has_error_below(spec.model.path)) continue;
     const auto sensor = registry.create_as<sdk::Sensor>(spec.model);
+    check_wall_shear(setup, sides, spec, *sensor, diagnostics);
     check_sensor_surfaces(setup, models.bodies, spec, *sensor, diagnostics);
     check_first_look(setup, spec, parameters, *sensor, world, diagnostics);
   }
 }
 
 /// Where bodies, emitters, openings and sensors are, and how far laws reach.
-void check_places(const scenario::ReadResult& read, const registry::Registry& registry,
-                  scenario::Diagnostics& diagnostics) {
+void check_places(const scenario::ReadResult& read, const SideModels& sides,
+                  const registry::Registry& registry, scenario::Diagnostics& diagnostics) {
   ParticleModels models = make_particle_models(read.setup, registry);
   check_numbers(read.setup, models, diagnostics);
   const auto first = first_grains(read.setup, models, has_openings(read.setup, read.dust));
@@ -68,8 +67,7 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_suction_covers(read.setup, models, diagnostics);
   check_openings(read.setup, read.dust, models, first, diagnostics);
   // Every face of the sides is asked: only where there is a field of dust.
-  const double wind =
-      read.dust.field ? wind_speed(read.setup, SideModelSet(read.setup, registry).models()) : 0.0;
+  const double wind = read.dust.field ? wind_speed(read.setup, sides) : 0.0;
   check_drift(read.setup, read.dust, wind, models, diagnostics);
   check_liberation(read.setup, read.dust, registry);
   check_feed_zones(read.setup, read.dust, models, first, diagnostics);
@@ -86,16 +84,17 @@ void check_places(const scenario::ReadResult& read, const registry::Registry& re
   check_cohesion(read.setup, models, registry, diagnostics);
   check_softness(read.setup, models, registry, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);
-  check_sensors(read.setup, models, registry, diagnostics);
+  check_sensors(read.setup, models, sides, registry, diagnostics);
 }
 
 /// Looks at what was read without errors.
 Result checked(Result read, const registry::Registry& registry,
                scenario::Diagnostics& diagnostics) {
   if (!read) return read;
-  check_sides(*read, registry, diagnostics);
+  const SideModelSet sides(read->setup, registry);
+  check_sides(*read, sides.models(), diagnostics);
   check_fixed_step(read->setup, registry, diagnostics);
-  if (!diagnostics.has_errors()) check_places(*read, registry, diagnostics);
+  if (!diagnostics.has_errors()) check_places(*read, sides.models(), registry, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   read->warnings = diagnostics.warning_lines();
   return read;

@@ -68,6 +68,18 @@ double largest_overlap(const Setup& setup, const ParticleModels& models, const K
   return overlap;
 }
 
+/// Steps that an impact lasts, ImpactOverlap::steps: they are made for the expected speed, and a
+/// collision by Hertz lasts as long as v^(-1/5).
+double steps_of(const ImpactOverlap& impact, const particles::TimeSteps& steps) {
+  if (!impact.is_hertz) return 0.0;
+  const auto size =
+      std::find_if(steps.classes.begin(), steps.classes.end(),
+                   [&](const particles::ClassStep& c) { return c.diameter == impact.diameter; });
+  if (size == steps.classes.end()) return 0.0;
+  return size->hertz_time * std::pow(impact.speed / steps.expected_speed, -0.2) /
+         steps.step_of(*size);
+}
+
 /// "at least 12 MPa": rounded up to two digits.
 std::string modulus_text(double pascal) {
   const double step = std::pow(10.0, std::floor(std::log10(pascal)) - 1.0);
@@ -148,9 +160,9 @@ std::string stiffness_advice(const Setup& setup, const ImpactOverlap& impact) {
 ImpactOverlap expected_impact(const Setup& setup, const ParticleModels& models,
                               const registry::Registry& registry) {
   if (models.class_diameters.empty()) return {};
-  const double of_steps =
-      particles::time_steps(setup, models.bodies, models.laws, models.class_diameters)
-          .expected_speed;
+  const particles::TimeSteps steps =
+      particles::time_steps(setup, models.bodies, models.laws, models.class_diameters);
+  const double of_steps = steps.expected_speed;
   const Fall fall = largest_fall(setup, models.bodies, registry);
   // What the scenario says of its grains holds.
   const bool is_of_fall = !(setup.time.expected_speed > 0.0) && fall.speed > of_steps;
@@ -160,6 +172,7 @@ ImpactOverlap expected_impact(const Setup& setup, const ParticleModels& models,
   impact.ratio_in_stream = ratio_in_stream;
   impact.fall = fall;
   impact.is_of_fall = is_of_fall;
+  impact.steps = steps_of(impact, steps);
   return impact;
 }
 

@@ -21,6 +21,7 @@ struct ImpactOverlap {
   bool is_hertz = false;         ///< the elastic force is that of Hertz
   Fall fall = {};                ///< the largest of the scenario
   bool is_of_fall = false;       ///< `speed` is that at its end
+  double steps = 0.0;            ///< [-] of the grain's own that it lasts; 0: not by Hertz
   double ratio_in_stream = 0.0;  ///< [-] as `ratio`, at the speed that the steps are made for
 };
 
@@ -29,6 +30,9 @@ struct ImpactOverlap {
 inline constexpr double k_soft_overlap = 0.05;
 /// Above this one a scenario is warned of, be it at the end of a fall that something may break.
 inline constexpr double k_warned_overlap = 0.3;
+
+/// A fall that ends in fewer steps than these costs some per cent of its restitution.
+inline constexpr double k_accurate_steps = 12.0;
 
 /// The overlap of elastic head-on impacts at `speed` [m/s], of all kinds of grains against walls
 /// and each other, from the law's own collision time: \f$ \delta = v t_c / 2.943 \f$ where the

@@ -258,23 +258,6 @@ void print_step(std::ostream& out, const Setup& setup, const TimeSteps& steps) {
   out << '\n';
 }
 
-/// Steps of the impact of a fall, where the steps are made for slower ones, which last longer.
-void print_impact_steps(std::ostream& out, const preflight::ImpactOverlap& impact,
-                        const TimeSteps& steps) {
-  constexpr double k_enough = 12.0;
-  if (!impact.is_of_fall || !impact.is_hertz) return;
-  for (const auto& size : steps.classes) {
-    if (size.diameter != impact.diameter) continue;
-    // A collision by Hertz lasts as long as v^(-1/5).
-    const double lasts =
-        size.hertz_time * std::pow(impact.speed / steps.expected_speed, -0.2) / steps.step_of(size);
-    if (lasts >= k_enough) return;
-    out << ";\n             it lasts some " << digits(lasts)
-        << " steps, which costs some per cent of its restitution: time.expected_speed: "
-        << digits(impact.speed) << " m/s makes shorter ones";
-  }
-}
-
 /// How far grains give way in a collision: what tells a stiffness in the wrong unit.
 void print_impact(std::ostream& out, const Setup& setup, const Derived& derived) {
   const preflight::ImpactOverlap& impact = derived.impact;
@@ -288,7 +271,11 @@ void print_impact(std::ostream& out, const Setup& setup, const Derived& derived)
     out << ";\n             soft: for " << digits(100.0 * preflight::k_soft_overlap) << " % "
         << stiffness_advice(setup, impact);
   }
-  print_impact_steps(out, impact, derived.steps);
+  if (impact.is_of_fall && impact.steps > 0.0 && impact.steps < preflight::k_accurate_steps) {
+    out << ";\n             it lasts some " << digits(impact.steps)
+        << " steps, which costs some per cent of its restitution: time.expected_speed: "
+        << digits(impact.speed) << " m/s makes shorter ones";
+  }
   // A given speed holds; that something has to break the fall is not seen from it.
   if (!impact.is_of_fall && impact.fall.speed > 1.05 * impact.speed) {
     out << ";\n             time.expected_speed is below the " << digits(impact.fall.speed)
