@@ -58,20 +58,30 @@ StartFacts load_start(sdk::ArchiveReader& archive) {
 
 void save_plant(const PlantBegin& plant, sdk::ArchiveWriter& archive) {
   std::vector<double> numbers{plant.time, plant.mass, plant.dust};
-  std::vector<std::string> names;
+  std::vector<std::int64_t> ways;
+  std::vector<std::string> names, classes;
   for (const PlantBegin::Counted& counted : plant.counted) {
-    names.push_back(counted.name);
+    ways.push_back(static_cast<std::int64_t>(counted.key.way));
+    names.push_back(counted.key.name);
+    classes.push_back(counted.key.dust_class);
     numbers.push_back(counted.mass);
   }
   archive.numbers(k_plant, numbers);
-  archive.integers("plant_counted", letters_of(names));
+  archive.integers("plant_ways", ways);
+  archive.integers("plant_names", letters_of(names));
+  archive.integers("plant_classes", letters_of(classes));
 }
 
 PlantBegin load_plant(sdk::ArchiveReader& archive) {
   const auto numbers = archive.numbers(k_plant);
   PlantBegin plant{numbers.at(0), numbers.at(1), numbers.at(2), {}};
-  for (std::string& name : texts_of(archive.integers("plant_counted"))) {
-    plant.counted.push_back({std::move(name), numbers.at(3 + plant.counted.size())});
+  const auto ways = archive.integers("plant_ways");
+  const auto names = texts_of(archive.integers("plant_names"));
+  const auto classes = texts_of(archive.integers("plant_classes"));
+  for (std::size_t n = 0; n < ways.size(); ++n) {
+    plant.counted.push_back(
+        {{static_cast<PlantBegin::Key::Way>(ways[n]), names.at(n), classes.at(n)},
+         numbers.at(3 + n)});
   }
   return plant;
 }

@@ -11,6 +11,7 @@ namespace dust::run {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Way = PlantBegin::Key::Way;
 
 /// [kg] What a sampler would find of an amount of dust.
 struct Sample {
@@ -26,7 +27,7 @@ struct Sample {
 };
 
 /// `mass_of`(balance) is what of a class went this way [kg], counted under `way` and `name`.
-Json sampled(const Simulation& s, const PlantBegin& begin, const char* way, const std::string& name,
+Json sampled(const Simulation& s, const PlantBegin& begin, Way way, const std::string& name,
              const std::function<double(const airborne::DustBalance&)>& mass_of) {
   constexpr double k_milligrams = 1e6;  // per kg, as grams per tonne
   constexpr double k_hour = 3600.0;     // s
@@ -38,7 +39,7 @@ Json sampled(const Simulation& s, const PlantBegin& begin, const char* way, cons
         report::aerodynamic_diameter(field.dust_class(n).diameter, s.dust_setup().field->density));
     const std::string& of_class = s.dust_stage()->class_names()[n];
     all.add(mass, shares);
-    since.add(mass - counted_before(begin, counted_as(way, name, of_class)), shares);
+    since.add(mass - begin.mass_of({way, name, of_class}), shares);
   }
   const double time = s.time() - begin.time;
   Json j = {{"kg", all.whole},
@@ -64,13 +65,13 @@ Json dust_outflow_json(const Simulation& s, const RunFacts& facts) {
   Json j = Json::object();
   for (std::size_t o = 0; o < openings.size(); ++o) {
     j[openings[o].name] =
-        sampled(s, begin, k_by_outlet, openings[o].name,
+        sampled(s, begin, Way::outlet, openings[o].name,
                 [&](const airborne::DustBalance& balance) { return balance.outlets[o]; });
   }
   for (std::size_t side = 0; side < 6; ++side) {
     if (!s.dust_stage()->lets_dust_out(side)) continue;
     const std::string name = scenario::k_side_names[side];
-    j[name] = sampled(s, begin, k_by_side, name,
+    j[name] = sampled(s, begin, Way::side, name,
                       [&](const airborne::DustBalance& balance) { return balance.left[side]; });
   }
   return j;

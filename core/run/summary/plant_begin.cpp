@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/summary/plant_begin.hpp"
 
-#include "base/named.hpp"
 #include "run/summary/summary_dust.hpp"
+
+#include <algorithm>
 
 namespace dust::run {
 namespace {
+
+using Way = PlantBegin::Key::Way;
 
 void add_field(const DustStage& stage, std::vector<PlantBegin::Counted>& counted) {
   for (std::size_t n = 0; n < stage.field().classes(); ++n) {
     const airborne::DustBalance balance = stage.field().balance(n);
     const std::string& of_class = stage.class_names()[n];
     for (std::size_t o = 0; o < stage.openings().size(); ++o) {
-      counted.push_back(
-          {counted_as(k_by_outlet, stage.openings()[o].name, of_class), balance.outlets[o]});
+      counted.push_back({{Way::outlet, stage.openings()[o].name, of_class}, balance.outlets[o]});
     }
     for (std::size_t side = 0; side < 6; ++side) {
-      counted.push_back(
-          {counted_as(k_by_side, scenario::k_side_names[side], of_class), balance.left[side]});
+      counted.push_back({{Way::side, scenario::k_side_names[side], of_class}, balance.left[side]});
     }
   }
 }
@@ -27,8 +28,7 @@ void add_field(const DustStage& stage, std::vector<PlantBegin::Counted>& counted
 PlantBegin plant_begin_now(const Simulation& s) {
   PlantBegin begin{s.time(), s.dem().balance().mass_emitted, dust_so_far(s), {}};
   for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
-    begin.counted.push_back(
-        {counted_as(k_by_hood, s.dem().openings()[o].name), drawn_by(s, o).dust});
+    begin.counted.push_back({{Way::hood, s.dem().openings()[o].name}, drawn_by(s, o).dust});
   }
   if (s.dust_stage() != nullptr) add_field(*s.dust_stage(), begin.counted);
   if (const LiberationStage* stage = s.liberation()) {
@@ -36,7 +36,7 @@ PlantBegin plant_begin_now(const Simulation& s) {
     for (std::size_t c = 0; c < stage->causes().size(); ++c) {
       for (std::size_t n = 0; n < classes.size(); ++n) {
         begin.counted.push_back(
-            {counted_as(k_by_cause, stage->causes()[c], classes[n]), stage->set_free(c, n)});
+            {{Way::cause, stage->causes()[c], classes[n]}, stage->set_free(c, n)});
       }
     }
   }
@@ -47,14 +47,10 @@ PlantBegin plant_begin(const RunFacts& facts) {
   return facts.start ? facts.start->before.plant : PlantBegin{};
 }
 
-double counted_before(const PlantBegin& begin, const std::string& name) {
-  const auto* counted = base::find_named(begin.counted, name);
-  return counted != nullptr ? counted->mass : 0.0;
-}
-
-std::string counted_as(const std::string& way, const std::string& part,
-                       const std::string& of_class) {
-  return way + "/" + part + (of_class.empty() ? "" : "/" + of_class);
+double PlantBegin::mass_of(const Key& key) const {
+  const auto found = std::find_if(counted.begin(), counted.end(),
+                                  [&](const Counted& one) { return one.key == key; });
+  return found != counted.end() ? found->mass : 0.0;
 }
 
 }  // namespace dust::run

@@ -20,10 +20,26 @@ namespace dust::run {
 /// When a plant began to be as it is, and what was counted by then. Masses go on, for they have to
 /// balance; rates, amounts per load and shares count from there on, so that they are of one plant.
 struct PlantBegin {
+  /// What a mass is counted by.
+  struct Key {
+    enum class Way {
+      hood,    ///< drawn out, grains and field, what is dust
+      outlet,  ///< of a field, drawn out by a hood
+      side,    ///< of a field, out through a side
+      cause,   ///< set free from grains
+    };
+    Way way = Way::hood;
+    std::string name;             ///< of the hood, the side, the cause
+    std::string dust_class = {};  ///< "": all together
+    bool operator==(const Key&) const = default;
+  };
   struct Counted {
-    std::string name;
+    Key key;
     double mass = 0.0;  ///< [kg]
   };
+  /// [kg] By then; 0 of what was not there yet.
+  [[nodiscard]] double mass_of(const Key& key) const;
+
   double time = 0.0;  ///< [s]
   double mass = 0.0;  ///< [kg] emitted
   double dust = 0.0;  ///< [kg] of dust, emitted as grains and released into the air

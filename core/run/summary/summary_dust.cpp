@@ -15,6 +15,7 @@ namespace dust::run {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Way = PlantBegin::Key::Way;
 
 struct SizeClass {
   double represented = 0.0;
@@ -145,7 +146,7 @@ Json hoods_json(const Simulation& s, const RunFacts& facts) {
   for (std::size_t o = 0; o < s.dem().openings().size(); ++o) {
     const Drawn drawn = drawn_by(s, o);
     const std::string& name = s.dem().openings()[o].name;
-    const double since = drawn.dust - counted_before(begin, counted_as(k_by_hood, name));
+    const double since = drawn.dust - begin.mass_of({Way::hood, name});
     j[name] = {{"particles", static_cast<std::int64_t>(drawn.particles)},
                {"mass_kg", drawn.mass},
                {"dust_kg", drawn.dust},
@@ -218,7 +219,7 @@ Json dust_on_grains_json(const Simulation& s, const RunFacts& facts) {
       const double mass = stage.set_free(c, n);
       if (!(mass > 0.0)) continue;
       const std::string& cause = stage.causes()[c];
-      const double since = mass - counted_before(begin, counted_as(k_by_cause, cause, classes[n]));
+      const double since = mass - begin.mass_of({Way::cause, cause, classes[n]});
       causes[cause] = {{"kg", mass},
                        {"kg_per_h", k_hour * since / time},
                        {"g_per_tonne", k_grams_per_tonne * since / load}};
@@ -268,8 +269,7 @@ void add_liberation_table(const Simulation& s, const RunFacts& facts, Json& tabl
     Json cells = Json::array({stage.causes()[c]});
     double whole = 0.0;
     for (std::size_t n = 0; n < classes.size(); ++n) {
-      const double before =
-          counted_before(begin, counted_as(k_by_cause, stage.causes()[c], classes[n]));
+      const double before = begin.mass_of({Way::cause, stage.causes()[c], classes[n]});
       whole += stage.set_free(c, n);
       cells.push_back(k_grams_per_tonne * (stage.set_free(c, n) - before) / load);
     }
