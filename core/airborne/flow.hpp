@@ -38,9 +38,9 @@ struct SurfaceMotion {
 
 /// What dust is told of the gas in a fluid step. Shares are of whole cells and faces.
 struct Flow {
-  fluid::CellField volume_before;  ///< [-] filled by gas: open share times void fraction, at the
-  fluid::CellField volume_after;   ///< beginning and at the end; 0 in bodies
-  const fluid::CellField* void_fraction = nullptr;  ///< [-] at the end; null: there are no grains
+  fluid::CellField volume_before;     ///< [-] filled by gas: open share times void fraction, at the
+  fluid::CellField volume_after;      ///< beginning and at the end; 0 in bodies
+  fluid::CellField void_fraction;     ///< [-] among grains, at the end; 1 where there are none
   fluid::FaceField throughflow;       ///< [m/s] volume flow of the gas over the area of the face
   fluid::FaceField passage;           ///< [-] share of the face that gas fills; on sides that are
                                       ///< walls 0
@@ -58,6 +58,7 @@ struct Flow {
   explicit Flow(const fluid::Grid& grid)
       : volume_before(grid.size, 0.0),
         volume_after(grid.size, 0.0),
+        void_fraction(grid.size, 1.0),
         throughflow(grid),
         passage(grid) {}
 };

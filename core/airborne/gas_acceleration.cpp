@@ -79,9 +79,16 @@ inline __attribute__((always_inline)) double slope(const double* v, const double
   return inverse_h * change / (both > 0.0 ? both : 1.0);
 }
 
-DUST_KERNEL void acceleration_row(int n, const Across& own, const Across& e, const Across& f,
-                                  const PastRow& past, const double* clear, float* acceleration,
+/// A row of faces that looks across `own`, and the two other directions.
+struct AccelerationRow {
+  Across own, e, f;
+  PastRow past;
+  const double* clear = nullptr;  ///< [-] 1: no grains, 0: closed or among them
+};
+
+DUST_KERNEL void acceleration_row(int n, const AccelerationRow& row, float* acceleration,
                                   float* turn) {
+  const auto& [own, e, f, past, clear] = row;
   const double *v = own.velocity, *ve = e.velocity, *vf = f.velocity;
   const std::ptrdiff_t s = own.stride, se = e.stride, sf = f.stride;
 #pragma GCC ivdep
@@ -134,11 +141,7 @@ void GasAcceleration::find_clear(const Flow& flow) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
       const double* passage = &flow.passage.component[d][at(o)];
       double* clear = &clear_.component[d][at(o)];
-      if (flow.void_fraction == nullptr) {
-        for (int i = 0; i < n[0]; ++i) clear[i] = passage[i] > k_closed ? 1.0 : 0.0;
-        return;
-      }
-      const double* eps = flow.void_fraction->data();
+      const double* eps = flow.void_fraction.data();
       const auto row = [&](int first, int count, int along) {
         const fluid::CellsBeside cells = fluid::cells_beside(grid_, d, along);
         clear_row(count, eps + o + first + cells.below, eps + o + first + cells.above,
@@ -188,8 +191,10 @@ void GasAcceleration::find_row(int dir, int j, int k, double rate) {
   float* acceleration = acceleration_[d].data() + o;
   const int n = faces(grid_, d)[0];
   const PastRow past{rate, past_.component[d].data() + o, has_past_.component[d].data() + o};
-  acceleration_row(n, across(d), across((d + 1) % 3), across((d + 2) % 3), past,
-                   clear_.component[d].data() + o, acceleration, turn_[d].data() + o);
+  acceleration_row(
+      n,
+      {across(d), across((d + 1) % 3), across((d + 2) % 3), past, clear_.component[d].data() + o},
+      acceleration, turn_[d].data() + o);
   if (grid_.is_periodic[d]) return;
   const int place[3] = {0, j, k};
   if (d == 0) {

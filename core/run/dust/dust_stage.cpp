@@ -117,7 +117,7 @@ void DustStage::advance(double time) {
     must_find_walls_ = false;
     flow_.walls_found += 1;
   }
-  flow_.void_fraction = &fluid_.void_fraction();
+  flow_.void_fraction = fluid_.void_fraction();
   find_passage();
   find_outflows();
   walls_.fill(time + 0.5 * setup_.time.fluid_step, flow_);
