@@ -2,13 +2,11 @@
 #include "bodies/shape.hpp"
 #include "scenario/blocks.hpp"
 #include "scenario/reader.hpp"
-#include "scenario/text/units.hpp"
-#include "scenario/text/values.hpp"
+#include "scenario/value_schema.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace dust::scenario {
 namespace {
@@ -16,81 +14,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using sdk::Parameter;
 using sdk::ParameterSchema;
-using sdk::ParameterType;
 
 /// A name of one of the scenario's things.
 constexpr const char* k_name_pattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
-
-std::string description(const Parameter& p) {
-  std::string text = p.sentence;
-  const std::string unit = si_unit(p.dimension);
-  if (!unit.empty()) text += " [" + unit + "; " + example_units(p.dimension) + "]";
-  const std::string range = range_text(p);
-  if (!range.empty()) text += " " + range;
-  const std::string usual = usual_text(p);
-  if (!usual.empty()) text += " (usual: " + usual + ")";
-  const std::string standard = default_text(p);
-  if (!p.is_required && !standard.empty()) text += " (default " + standard + ")";
-  return text;
-}
-
-void add_range(Json& number, const Parameter& p) {
-  if (std::isfinite(p.range.low)) {
-    number[p.range.low_is_open ? "exclusiveMinimum" : "minimum"] = p.range.low;
-  }
-  if (std::isfinite(p.range.high)) {
-    number[p.range.high_is_open ? "exclusiveMaximum" : "maximum"] = p.range.high;
-  }
-}
-
-/// A bare number, or a text that begins with one (its unit is checked by the engine).
-Json number_or_text(const Parameter& p) {
-  Json number = {{"type", "number"}};
-  add_range(number, p);
-  Json text = {{"type", "string"}, {"pattern", "^[-+]?(\\d+\\.?\\d*|\\.\\d+)([eE][-+]?\\d+)?"}};
-  return {{"anyOf", Json::array({number, text})}};
-}
-
-Json text_schema(const Parameter& p) {
-  Json text = {{"type", "string"}};
-  if (!p.options.empty()) text["enum"] = p.options;
-  return text;
-}
-
-Json value_schema(const Parameter& p) {
-  Json s;
-  switch (p.type) {
-    case ParameterType::number:
-      s = number_or_text(p);
-      break;
-    case ParameterType::integer:
-      s = {{"type", "integer"}};
-      add_range(s, p);
-      break;
-    case ParameterType::boolean:
-      s = {{"type", "boolean"}};
-      break;
-    case ParameterType::text:
-      s = text_schema(p);
-      break;
-    case ParameterType::vector:
-      s = {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", number_or_text(p)}};
-      break;
-    case ParameterType::numbers:
-      s = {{"type", "array"}, {"items", number_or_text(p)}};
-      break;
-    case ParameterType::texts:
-      s = {{"type", "array"}, {"items", text_schema(p)}};
-      break;
-    case ParameterType::vectors:
-      s = {{"type", "array"},
-           {"items",
-            {{"type", "array"}, {"minItems", 3}, {"maxItems", 3}, {"items", number_or_text(p)}}}};
-      break;
-  }
-  s["description"] = description(p);
-  return s;
-}
 
 Json object() {
   return {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
@@ -115,12 +41,6 @@ void refer_to_parameters(Json& object, const ParameterSchema& schema, const std:
   for (const Parameter& p : schema) {
     object["properties"][p.name] = {{"$ref", "#/definitions/" + place + "/" + p.name}};
   }
-}
-
-Json parameter_definitions(const ParameterSchema& schema) {
-  Json definitions = Json::object();
-  for (const Parameter& p : schema) definitions[p.name] = value_schema(p);
-  return definitions;
 }
 
 template <class Block>
@@ -183,16 +103,16 @@ Json any_body() {
 
 /// What body_schema refers to.
 void add_body_definitions(Json& definitions, const registry::Registry& registry) {
-  Json body = parameter_definitions(PlacedBlock::schema());
-  body.update(parameter_definitions(BodyBlock::schema()));
+  Json body = property_schemas(PlacedBlock::schema());
+  body.update(property_schemas(BodyBlock::schema()));
   body["remove"] = block<RemovalBlock>();
   body["suction"] = block<SuctionBlock>();
   definitions["body"] = body;
   for (const Choice& shape : shapes()) {
-    definitions["shapes"][shape.name] = parameter_definitions(*shape.parameters);
+    definitions["shapes"][shape.name] = property_schemas(*shape.parameters);
   }
   for (const Choice& motion : choices(registry, "motion")) {
-    definitions["motions"][motion.name] = parameter_definitions(*motion.parameters);
+    definitions["motions"][motion.name] = property_schemas(*motion.parameters);
   }
 }
 
@@ -230,8 +150,7 @@ Json body_schema(const registry::Registry& registry) {
 Json reference_schema() {
   Json one = block<ReferenceBlock>();
   const auto number = [](const char* sentence) {
-    Parameter p;
-    Json made = number_or_text(p);
+    Json made = number_schema({});
     made["description"] = sentence;
     return made;
   };
@@ -245,9 +164,8 @@ Json reference_schema() {
 Json reference_curve_schema() {
   Json one = block<ReferenceCurveBlock>();
   const auto numbers = [](const char* sentence) {
-    Parameter p;
     return Json{{"type", "array"},
-                {"items", number_or_text(p)},
+                {"items", number_schema({})},
                 {"minItems", 2},
                 {"description", sentence}};
   };

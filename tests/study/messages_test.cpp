@@ -262,6 +262,10 @@ TEST_CASE("a study file shall be told of what is wrong with itself") {
       "to this file.)");
   check_message("base: none.yaml\nmeasure: {emitted: particles.emitted}\nreplicates: 2\n",
                 "s.yaml:1:7: error: base: there is no file none.yaml");
+  check_message(
+      "base: drop.yaml\nmeasure: {m: {quantity: particles.emitted, minus: [particles.left]}}\n"
+      "replicates: 2\n",
+      "s.yaml:2:51: error: measure.m.minus: a text is expected, not a list");
   check_message(k_head + "vari: {time.end: [20 ms]}\nreplicates: 2\n",
                 "s.yaml:3:1: error: unknown key 'vari' in the study; did you mean 'vary'?");
 }

@@ -1,11 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/spec/spec.hpp"
+#include "study/spec/spec_blocks.hpp"
 
-#include "dust/sdk/parameter_schema.hpp"
+#include "study/spec/spec.hpp"
 
 namespace dust::study {
 
 using sdk::SchemaOf;
+
+const sdk::ParameterSchema& GeneralBlock::schema() {
+  static const sdk::ParameterSchema made = [] {
+    SchemaOf<GeneralBlock> s;
+    s.text(&GeneralBlock::name, "name",
+           "Name of the study and of its folder; without it, the file's stem.")
+        .optional();
+    s.text(&GeneralBlock::title, "title", "One sentence for the report.").optional();
+    s.text(&GeneralBlock::base, "base", "The scenario that is varied, relative to this file.");
+    s.integer(&GeneralBlock::replicates, "replicates",
+              "Runs of every point, each with a seed of its own.")
+        .at_least(1)
+        .at_most(1000)
+        .optional();
+    s.integer(&GeneralBlock::seed, "seed",
+              "Seed of the first replicate; the next ones count on. -1 takes the scenario's.")
+        .at_least(-1)
+        .optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const sdk::ParameterSchema& MeasureBlock::schema() {
+  static const sdk::ParameterSchema made = [] {
+    SchemaOf<MeasureBlock> s;
+    s.text(&MeasureBlock::quantity, "quantity",
+           "sensors.SENSOR.FIGURE, or a figure of summary.json.");
+    s.text(&MeasureBlock::minus, "minus", "A second quantity that is taken off.").optional();
+    s.text(&MeasureBlock::unit, "unit", "Another unit than that of the quantity.").optional();
+    return s.build();
+  }();
+  return made;
+}
+
+const sdk::ParameterSchema& ExpectationBlock::schema() {
+  static const sdk::ParameterSchema made = [] {
+    SchemaOf<ExpectationBlock> s;
+    s.text(&ExpectationBlock::output, "output", "Name of a measure.");
+    s.text(&ExpectationBlock::input, "input", "Path of what is varied, or `case`.");
+    s.text(&ExpectationBlock::then, "then",
+           "From the smallest number of the input to its largest, of other values from the first "
+           "that is given to the last, or from one case to another.")
+        .one_of({"rises", "falls"});
+    s.text(&ExpectationBlock::from, "from", "Of cases: the one that it changes from.").optional();
+    s.text(&ExpectationBlock::to, "to", "Of cases: the one that it changes to.").optional();
+    s.text(&ExpectationBlock::why, "why", "For the report.").optional();
+    return s.build();
+  }();
+  return made;
+}
 
 const sdk::ParameterSchema& Execution::schema() {
   static const sdk::ParameterSchema made = [] {

@@ -8,6 +8,7 @@
 #include "scenario/text/units.hpp"
 #include "scenario/text/values.hpp"
 #include "study/calibration/surrogate.hpp"
+#include "study/spec/spec_blocks.hpp"
 
 #include <algorithm>
 
@@ -18,34 +19,6 @@ using scenario::Entry;
 using scenario::MapReader;
 using scenario::Node;
 using scenario::printable;
-using sdk::SchemaOf;
-
-struct GeneralBlock {
-  std::string name;
-  std::string title;
-  std::string base;
-  std::int64_t replicates = 1;
-  std::int64_t seed = -1;
-  static const sdk::ParameterSchema& schema() {
-    static const sdk::ParameterSchema made = [] {
-      SchemaOf<GeneralBlock> s;
-      s.text(&GeneralBlock::name, "name", "Name of the study and of its folder.").optional();
-      s.text(&GeneralBlock::title, "title", "One sentence for the report.").optional();
-      s.text(&GeneralBlock::base, "base", "The scenario that is varied, relative to this file.");
-      s.integer(&GeneralBlock::replicates, "replicates",
-                "Runs of every point, each with a seed of its own.")
-          .at_least(1)
-          .at_most(1000)
-          .optional();
-      s.integer(&GeneralBlock::seed, "seed",
-                "Seed of the first replicate; the next ones count on. -1 takes the scenario's.")
-          .at_least(-1)
-          .optional();
-      return s.build();
-    }();
-    return made;
-  }
-};
 
 template <class Block>
 Block read_block(MapReader& reader) {
@@ -187,24 +160,24 @@ class SpecReader {
   }
 
   std::optional<Measure> read_measure(const Entry& entry, const std::string& path) {
-    Measure measure{
-        .name = entry.key, .quantity = {}, .minus = {}, .unit = {}, .where = entry.value.where};
     if (entry.value.is_text()) {
-      measure.quantity = entry.value.text;
-      return measure;
+      return Measure{.name = entry.key,
+                     .quantity = entry.value.text,
+                     .minus = {},
+                     .unit = {},
+                     .where = entry.value.where};
     }
     MapReader reader(entry.value, path, entry.where, diagnostics_);
     if (!entry.value.is_map()) return std::nullopt;
-    const Entry* quantity = reader.required("quantity", "sensors.SENSOR.FIGURE");
-    const Entry* unit = reader.optional("unit");
-    const Entry* minus = reader.optional("minus");
+    const auto block = read_block<MeasureBlock>(reader);
     reader.finish();
-    if (quantity == nullptr) return std::nullopt;
-    if (minus != nullptr) measure.minus = minus->value.text;
-    measure.quantity = quantity->value.text;
-    measure.where = quantity->value.where;
-    if (unit != nullptr) measure.unit = unit->value.text;
-    return measure;
+    const Entry* quantity = entry.value.find("quantity");
+    if (quantity == nullptr || !reader.is_good()) return std::nullopt;
+    return Measure{.name = entry.key,
+                   .quantity = block.quantity,
+                   .minus = block.minus,
+                   .unit = block.unit,
+                   .where = quantity->value.where};
   }
 
   void read_measures(const Entry& entry) {
@@ -227,16 +200,6 @@ class SpecReader {
     }
   }
 
-  std::string text_of(MapReader& reader, const std::string& key, bool is_required,
-                      const std::string& what) {
-    const Entry* entry = is_required ? reader.required(key, what) : reader.optional(key);
-    if (entry == nullptr) return {};
-    if (entry->value.is_text()) return entry->value.text;
-    error(entry->value.where,
-          reader.path_of(key) + ": a text is expected, not " + scenario::kind_text(entry->value));
-    return {};
-  }
-
   void read_expectations(const Entry& entry) {
     if (!entry.value.is_list()) {
       error(entry.value.where,
@@ -249,14 +212,15 @@ class SpecReader {
       const Node& item = entry.value.items[n];
       MapReader reader(item, "expect[" + std::to_string(n) + "]", item.where, diagnostics_);
       if (!item.is_map()) continue;
-      Expectation e;
-      e.where = item.where;
-      e.output = text_of(reader, "output", true, "the name of a measure");
-      e.input = text_of(reader, "input", true, "the path of what is varied, or case");
-      e.then = text_of(reader, "then", true, "rises or falls");
-      e.from = text_of(reader, "from", false, "");
-      e.to = text_of(reader, "to", false, "");
-      e.why = text_of(reader, "why", false, "");
+      const auto block = read_block<ExpectationBlock>(reader);
+      Expectation e{.output = block.output,
+                    .input = block.input,
+                    .at = {},
+                    .then = block.then,
+                    .from = block.from,
+                    .to = block.to,
+                    .why = block.why,
+                    .where = item.where};
       const Entry* at = reader.optional("at");
       reader.finish();
       check_expectation(item, e, n);
@@ -342,9 +306,6 @@ class SpecReader {
     }
     const Axis* chosen =
         e.input.empty() ? nullptr : varied(e.input, where("input"), path + ".input");
-    if (!e.then.empty() && e.then != "rises" && e.then != "falls") {
-      error(where("then"), path + ".then: '" + printable(e.then) + "' is none of rises, falls");
-    }
     if (chosen == nullptr) return;
     const bool is_case = chosen->kind == AxisKind::cases;
     if (!is_case && !(e.from.empty() && e.to.empty())) {
