@@ -123,11 +123,7 @@ class Conveyor final : public Shape {
       Vec3 a = outline[n];
       Vec3 b = outline[(n + 1) % outline.size()];
       if (!clip_x(a, b, min.x, max.x)) continue;
-      a.y = b.y = min.y;
-      Vec3 c = b;
-      Vec3 d = a;
-      c.y = d.y = max.y;
-      add_quad(t, a, b, c, d);
+      add_strip(t, a, b, min.y, max.y);
     }
     return t;
   }

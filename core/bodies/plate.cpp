@@ -67,13 +67,7 @@ class Plate final : public OnePart<Plate> {
     }
     Triangles t;
     for (int n = 0; n < 4; ++n) {
-      Vec3 a = corner[n];
-      Vec3 b = corner[(n + 1) % 4];
-      a.y = b.y = min.y;
-      Vec3 c = b;
-      Vec3 d = a;
-      c.y = d.y = max.y;
-      add_quad(t, a, b, c, d);
+      add_strip(t, corner[n], corner[(n + 1) % 4], min.y, max.y);
     }
     return t;
   }

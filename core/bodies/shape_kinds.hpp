@@ -37,6 +37,15 @@ inline void add_quad(Triangles& t, sdk::Vec3 a, sdk::Vec3 b, sdk::Vec3 c, sdk::V
   t.insert(t.end(), {a, b, c, a, c, d});
 }
 
+/// What the line from `a` to `b` sweeps along y, between `low` and `high`.
+inline void add_strip(Triangles& t, sdk::Vec3 a, sdk::Vec3 b, double low, double high) {
+  a.y = b.y = low;
+  sdk::Vec3 c = b;
+  sdk::Vec3 d = a;
+  c.y = d.y = high;
+  add_quad(t, a, b, c, d);
+}
+
 /// A unit vector perpendicular to the unit vector `axis`: the axis of the domain least along it,
 /// made perpendicular.
 inline sdk::Vec3 perpendicular(sdk::Vec3 axis) {
