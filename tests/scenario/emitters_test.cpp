@@ -48,13 +48,17 @@ fs::path write(const TemporaryFolder& folder, const std::string& name, const std
   return file;
 }
 
-/// Runs and expects refusal with exit status 2 and nothing written.
+/// Runs and expects refusal with exit status 2 and nothing written, of a check in the same words.
 std::string refusal(const TemporaryFolder& folder, const std::string& emitters) {
   const fs::path out = folder / "refused";
-  const auto run =
-      engine({"run", write(folder, "bad.yaml", k_head + emitters), "-o", out, "--quiet"});
+  const fs::path file = write(folder, "bad.yaml", k_head + emitters);
+  const auto run = engine({"run", file, "-o", out, "--quiet"});
   CHECK(run.status == 2);
   CHECK_FALSE(fs::exists(out));
+  const auto check = engine({"check", file});
+  CHECK(check.status == 2);
+  CHECK(check.err == run.err);
+  CHECK(check.out.empty());
   return run.err;
 }
 
@@ -135,12 +139,15 @@ TEST_CASE("overlapping starts shall be refused with both grains, lines and place
   const auto text = refusal(folder, "  bed: {model: file, material: glass, file: bed.csv}\n");
   CHECK(text.find("bad.yaml:23:16: error: emitters.bed: a grain of 0.001 m at (0.005, 0.005, "
                   "0.0059) m (line 3) and a grain of 0.001 m at (0.005, 0.005, 0.005) m (line 2) "
-                  "overlap by 0.0001 m, 0.2 of the smaller radius; 0.005 is allowed") !=
-        std::string::npos);
+                  "overlap by 0.0001 m, 0.2 of the smaller radius; 0.005 is allowed: move one of "
+                  "them, or allow more (allowed_overlap)") != std::string::npos);
   const auto across = refusal(folder,
                               "  bed: {model: single, material: glass, positions: [[0.2, 5, "
                               "5 mm], [9.7, 5, 5 mm]], diameters: [1 mm]}\n");
   CHECK(across.find("overlap by 0.0005 m") != std::string::npos);
+  CHECK(across.find("0 is allowed: move one of them; grains that touch at the start, as in a "
+                    "settled bed, come from a file (model: file, whose allowed_overlap takes "
+                    "them)") != std::string::npos);
   const auto wall = refusal(
       folder,
       "  bed: {model: single, material: glass, positions: [[5, 5, 0.4 mm]], diameters: [1 mm]}\n");
@@ -151,6 +158,34 @@ TEST_CASE("overlapping starts shall be refused with both grains, lines and place
   CHECK(outside.find("lies outside the domain") != std::string::npos);
 }
 
+TEST_CASE(
+    "grains in a body shall be refused by a check, too, those of later with it as it is then") {
+  const TemporaryFolder folder;
+  const std::string block =
+      "bodies: {block: {shape: box, material: glass, min: [2, 2, 5 mm], max: [8, 8, 9 mm]}}\n";
+  const auto grain = [&](const std::string& more) {
+    return "  grain: {model: single, material: glass, positions: [[5, 5, 7 mm]], "
+           "diameters: [1 mm]" +
+           more + "}\n" + block;
+  };
+  CHECK(refusal(folder, grain("")).find("overlaps 'block' by") != std::string::npos);
+  const auto check = [&](const std::string& text, const std::string& set = "name=s") {
+    return engine({"check", write(folder, "late.yaml", k_head + text), "--set", set});
+  };
+  const auto late = check(grain(", time: 2 ms"));
+  CHECK(late.status == 2);
+  CHECK(late.err.find("overlaps 'block' by") != std::string::npos);
+  CHECK(check(grain(", time: 2 ms"), "bodies.block.remove.at=1 ms").status == 0);
+  CHECK(check(grain(", time: 2 ms"), "bodies.block.remove.at=3 ms").status == 2);
+  // A filling that would have to share its region with the block.
+  const auto filled = refusal(
+      folder,
+      "  bed: {model: fill, material: glass, min: [1, 1, 4 mm], max: [9, 9, 10 mm], mass: 0.25 g, "
+      "diameters: [1 mm]}\n" +
+          block);
+  CHECK(filled.find("error: emitters.bed: only ") != std::string::npos);
+}
+
 TEST_CASE("a filling that does not fit shall be refused, when read or before the first step") {
   const TemporaryFolder folder;
   const auto dense = refusal(folder,
@@ -158,17 +193,12 @@ TEST_CASE("a filling that does not fit shall be refused, when read or before the
                              "[10, 10, 2 mm], mass: 1 g, diameters: [1 mm]}\n");
   CHECK(dense.find("bad.yaml:23:16: error: emitters.bed: the region cannot hold the grains") !=
         std::string::npos);
-  // Equal spheres at random places run out of room at a solids fraction of 0.38: a check tells,
-  // too.
+  // Equal spheres at random places run out of room at a solids fraction of 0.38.
   const std::string tight =
       "  bed: {model: fill, material: glass, min: [0, 0, 0], max: [10, 10, 5 mm], mass: 0.5 g, "
       "diameters: [1 mm]}\n";
   const auto late = refusal(folder, tight);
   CHECK(late.find("bad.yaml:23:16: error: emitters.bed: only ") != std::string::npos);
-  const auto check = engine({"check", folder / "bad.yaml"});
-  CHECK(check.status == 2);
-  CHECK(check.err == late);
-  CHECK(check.out.empty());
   // What another emitter has put there first takes the room.
   const auto taken = refusal(folder, R"(
   first: {model: fill, material: glass, min: [0, 0, 0], max: [10, 10, 8 mm], mass: 0.6 g, diameters: [1 mm]}

@@ -63,14 +63,6 @@ void look_at_sides(const scenario::Setup& setup, const scenario::DustSetup& dust
   }
 }
 
-/// Whether a body is or may be gone: of one that goes when the grains rest nobody knows when.
-bool may_be_gone(const scenario::BodySpec& body, double time, double fluid_step) {
-  if (!body.removal) return false;
-  const double rounding = 1e-6 * fluid_step;
-  const bool is_by_energy = body.removal->kinetic_energy_per_grain > 0.0;
-  return time >= body.removal->at - rounding || (is_by_energy && time >= body.removal->after);
-}
-
 void look_at_bodies(const scenario::Setup& setup, const bodies::BodySet& bodies, Vec3 place,
                     double radius, double time, Misplaced& stuck) {
   for (std::size_t n = 0; n < bodies.size(); ++n) {
@@ -163,6 +155,13 @@ void check_times(const scenario::Setup& setup, const scenario::EmitterSpec& spec
 }
 
 }  // namespace
+
+bool may_be_gone(const scenario::BodySpec& body, double time, double fluid_step) {
+  if (!body.removal) return false;
+  const double rounding = 1e-6 * fluid_step;
+  const bool is_by_energy = body.removal->kinetic_energy_per_grain > 0.0;
+  return time >= body.removal->at - rounding || (is_by_energy && time >= body.removal->after);
+}
 
 void check_release(const scenario::Setup& setup, const scenario::DustSetup& dust,
                    const ParticleModels& models,

@@ -21,4 +21,8 @@ void check_release(const scenario::Setup& setup, const scenario::DustSetup& dust
                    std::span<const std::vector<sdk::InsertionRequest>> first,
                    scenario::Diagnostics& diagnostics);
 
+/// Whether a body is or may be gone at `time` [s]: of one that goes when the grains rest nobody
+/// knows when.
+bool may_be_gone(const scenario::BodySpec& body, double time, double fluid_step);
+
 }  // namespace dust::preflight

@@ -57,6 +57,13 @@ std::string partner_text(const SphereGrid::Sphere& s,
                         " " + what);
 }
 
+/// What else to do than to move a grain that overlaps by more than `allowed`.
+std::string other_ways(double allowed) {
+  return allowed > 0.0 ? ", or allow more (allowed_overlap)"
+                       : "; grains that touch at the start, as in a settled bed, come from a file "
+                         "(model: file, whose allowed_overlap takes them)";
+}
+
 /// Of an emitter whose grains do not wait: inside the domain, clear of bodies and walls. The frame
 /// of a run has grains beyond a periodic side by what they travelled since the neighbour list was
 /// built, which is less than the `largest` diameter [m]: the list puts them back.
@@ -76,7 +83,8 @@ void check_place(const EntryScene& scene, const InsertionCandidate& e, double al
     const double overlap = radius - s.contact_at(scene.time, x).distance;
     if (overlap <= allowed * radius + rounding(scene)) continue;
     std::ostringstream text;
-    text << "overlaps '" << s.name << "' by " << overlap << " m; move it clear";
+    text << "overlaps '" << s.name << "' by " << overlap << " m; move it clear"
+         << other_ways(allowed);
     refuse(scene, e, text.str());
   }
 }
@@ -215,7 +223,8 @@ std::vector<InsertionCandidate> take_without_overlap(std::vector<InsertionCandid
       std::ostringstream text;
       text << "and " << partner_text(*other, waiting) << " overlap by "
            << radius + other->radius - apart << " m, " << (radius + other->radius - apart) / smaller
-           << " of the smaller radius; " << rule.allowed_overlap << " is allowed: move one of them";
+           << " of the smaller radius; " << rule.allowed_overlap << " is allowed: move one of them"
+           << other_ways(rule.allowed_overlap);
       refuse(scene, e, text.str());
     }
   }

@@ -12,7 +12,7 @@
 namespace dust::run {
 namespace {
 
-EntryScene entry_scene_of(const scenario::Setup& setup, const Models& models) {
+EntryScene entry_scene_of(const scenario::Setup& setup, const preflight::ParticleModels& models) {
   EntryScene scene;
   scene.min = setup.domain.min;
   scene.max = setup.domain.max;
@@ -36,7 +36,7 @@ const scenario::FrameSpec* frame_of(const scenario::Setup& setup, std::size_t em
 
 }  // namespace
 
-Insertion::Insertion(const scenario::Setup& setup, const Models& models)
+Insertion::Insertion(const scenario::Setup& setup, const preflight::ParticleModels& models)
     : setup_(setup),
       models_(models),
       scene_(entry_scene_of(setup, models)),
@@ -130,6 +130,14 @@ void Insertion::insert(double time, particles::Dem& dem) {
                   material.properties.density * sdk::sphere_volume(e.grain.diameter));
   }
   dem.insert(grains);
+}
+
+void Insertion::rehearse(double time, std::span<const std::size_t> emitters) {
+  const particles::GrainRows none;
+  scene_.time = time;
+  for (const std::size_t n : emitters) propose(n, time, time + setup_.time.fluid_step, none);
+  take_without_overlap(waiting_, none, scene_);
+  waiting_.clear();
 }
 
 double Insertion::waiting_mass(std::size_t emitter) const {

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "dust/sdk/archive.hpp"
+#include "preflight/particle_models.hpp"
 #include "run/audit/departures.hpp"
 #include "run/insertion/emission_ledger.hpp"
 #include "run/insertion/entry.hpp"
-#include "run/models.hpp"
 #include "setup/setup.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace dust::run {
 class Insertion {
  public:
   /// Both are kept by reference.
-  Insertion(const scenario::Setup& setup, const Models& models);
+  Insertion(const scenario::Setup& setup, const preflight::ParticleModels& models);
 
   /// Lets in what is there before the first step, which then asks no emitter. Throws ModelError
   /// where that is impossible.
@@ -26,6 +27,10 @@ class Insertion {
   /// Lets in what the emitters propose for a fluid step from `time` [s] on; false: the step's are
   /// in since start().
   bool run(double time, particles::Dem& dem);
+
+  /// Without a run: lets into an empty domain what some of the emitters propose for the fluid step
+  /// from `time` [s] on, and out again. Throws ModelError where that is impossible.
+  void rehearse(double time, std::span<const std::size_t> emitters);
 
   /// Particles that had to wait a fluid step or more because their place was taken, and those
   /// waiting.
@@ -55,7 +60,7 @@ class Insertion {
   void add_waiting(std::size_t emitter, double begin, const sdk::InsertionRequest& request);
 
   const scenario::Setup& setup_;
-  const Models& models_;
+  const preflight::ParticleModels& models_;
   EntryScene scene_;
   EmissionLedger ledger_;
   Departures departures_;

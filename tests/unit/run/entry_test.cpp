@@ -174,7 +174,8 @@ TEST_CASE("grains that may not wait shall be refused with both sides named") {
   CHECK(refusal(s, pair) ==
         "a.yaml:1:1: error: emitters.bed: a grain of 0.0004 m at (0.0002, 0, 0) m (line 7) and a "
         "grain of 0.0004 m at (0, 0, 0) m (line 2) overlap by 0.0002 m, 1 of the smaller radius; 0 "
-        "is allowed: move one of them");
+        "is allowed: move one of them; grains that touch at the start, as in a settled bed, come "
+        "from a file (model: file, whose allowed_overlap takes them)");
   Present present;
   present.add(0.0);
   std::vector<std::int64_t> id{41};

@@ -8,10 +8,10 @@
 #include "preflight/body_survey.hpp"
 #include "preflight/derived.hpp"
 #include "preflight/learnt_costs.hpp"
-#include "preflight/placing.hpp"
 #include "preflight/reader.hpp"
 #include "preflight/steady_check.hpp"
 #include "run/branch/preview.hpp"
+#include "run/insertion/rehearsal.hpp"
 #include "scenario/diagnostics.hpp"
 
 #include <filesystem>
@@ -68,7 +68,7 @@ void add_check(CLI::App& app, int&) {
     branching.throw_errors();
     const double begin = start ? start->time : 0.0;
     const auto derived = preflight::derive(result.setup, *registry, result.dust, begin);
-    preflight::try_placing(result.setup, *registry, derived, begin);
+    run::rehearse_placing(result.setup, *registry, derived, begin);
     const auto survey = preflight::survey_bodies(result.setup, *registry);
     scenario::Diagnostics further;
     preflight::check_crossings(survey, further);
