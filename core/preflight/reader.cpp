@@ -11,6 +11,7 @@
 #include "preflight/history_check.hpp"
 #include "preflight/places/belt_check.hpp"
 #include "preflight/places/body_places.hpp"
+#include "preflight/places/outlet_check.hpp"
 #include "preflight/places/periodic_check.hpp"
 #include "preflight/places/reach_check.hpp"
 #include "preflight/places/release_check.hpp"
@@ -74,6 +75,8 @@ void check_places(const scenario::ReadResult& read, const SideModels& sides,
   check_feeds(read.setup, read.dust, read.start.from.has_value(), models, diagnostics);
   check_body_places(read.setup, models, diagnostics);
   check_mesh_sizes(read.setup, models, diagnostics);
+  check_removals(read.setup, diagnostics);
+  check_outlets(read.setup, models, diagnostics);
   check_resolved_at_thin_bodies(read.setup, models, diagnostics);
   check_bodies_at_periodic_sides(read.setup, models, diagnostics);
   check_belts(read.setup, models, diagnostics);

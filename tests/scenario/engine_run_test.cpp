@@ -419,6 +419,15 @@ TEST_CASE("a scenario written by engine new shall be valid in any sizes, without
     // Never over a file that is there.
     CHECK(engine(arguments).status == 2);
   }
+  // The commands of its first lines are of the file as it is called.
+  const auto named = folder / "9 hoppers.yml";
+  REQUIRE(engine({"new", "hopper", "--outlet", "5 mm", "-o", named}).status == 0);
+  CHECK(read_file(named).find("engine check '9 hoppers.yml'; engine run '9 hoppers.yml'\n") !=
+        std::string::npos);
+  // Of an outlet of a few grains a check tells what it will do.
+  CHECK(engine({"check", named})
+            .err.find("its hole of 5 mm is 2.5 times as wide as the largest grains (2 mm)") !=
+        std::string::npos);
   // Sizes that do not go together are told by their options; nothing is written.
   const auto refused = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "new");

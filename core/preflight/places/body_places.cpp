@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "bodies/survey/surface_in_box.hpp"
 #include "fluid/grid.hpp"
+#include "scenario/text/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -83,6 +84,21 @@ void check_mesh_sizes(const scenario::Setup& setup, const ParticleModels& models
                         "bodies." + body.name + ": the mesh measures " +
                             base::extent_text({extent.x, extent.y, extent.z}) + ", less than " +
                             larger + "; is it drawn in metres? Then give unit: 1 m");
+  }
+}
+
+void check_removals(const scenario::Setup& setup, scenario::Diagnostics& diagnostics) {
+  for (const scenario::BodySpec& body : setup.bodies) {
+    if (!body.removal) continue;
+    const bool is_by_energy = body.removal->kinetic_energy_per_grain > 0.0;
+    const double earliest = is_by_energy ? body.removal->after : body.removal->at;
+    if (earliest < setup.time.end) continue;
+    diagnostics.warning(
+        body.where, "bodies." + body.name + ".remove." + (is_by_energy ? "after" : "at") + ": " +
+                        scenario::number_text(earliest) + " s is not before time.end, " +
+                        scenario::number_text(setup.time.end) +
+                        " s: the body stays for all of the run; give an earlier time or a later "
+                        "end");
   }
 }
 

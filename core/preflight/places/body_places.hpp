@@ -17,4 +17,7 @@ void check_body_places(const scenario::Setup& setup, const ParticleModels& model
 void check_mesh_sizes(const scenario::Setup& setup, const ParticleModels& models,
                       scenario::Diagnostics& diagnostics);
 
+/// Warns of bodies that are to be taken away when the run has ended.
+void check_removals(const scenario::Setup& setup, scenario::Diagnostics& diagnostics);
+
 }  // namespace dust::preflight

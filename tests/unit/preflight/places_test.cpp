@@ -116,6 +116,57 @@ TEST_CASE("a body thinner than a cell shall be warned of where spheres are resol
             .empty());
 }
 
+TEST_CASE("a body that is taken away after the end shall be warned of") {
+  const auto warnings = [](const std::string& removal) {
+    const test::Said all = said({{"bodies.shelf.remove", removal}});
+    CHECK(all.errors == std::vector<std::string>{});
+    return all.warnings;
+  };
+  CHECK(warnings("{at: 0.09 s}").empty());
+  const auto late = warnings("{at: 0.2 s}");
+  REQUIRE(late.size() == 1);
+  CHECK(late.front().ends_with(
+      "warning: bodies.shelf.remove.at: 0.2 s is not before time.end, 0.1 s: the body stays for "
+      "all of the run; give an earlier time or a later end"));
+  CHECK(warnings("{when_kinetic_energy_per_grain_below: 1 nJ}").empty());
+  CHECK(warnings("{when_kinetic_energy_per_grain_below: 1 nJ, after: 0.1 s}").size() == 1);
+}
+
+TEST_CASE("an outlet that grains arch over shall be warned of") {
+  // Grains of 4 mm.
+  const auto warned = [](const std::string& shape, const std::string& grains = "") {
+    std::vector<scenario::Override> set{{"bodies.shelf", "{material: sand, " + shape + "}"}};
+    if (!grains.empty()) set.push_back({"emitters.feed", grains});
+    const test::Said all = said(set);
+    REQUIRE(all.errors == std::vector<std::string>{});
+    return std::count_if(all.warnings.begin(), all.warnings.end(), [](const std::string& line) {
+      return line.find("they arch over it and the flow stops") != std::string::npos ||
+             line.find("they do not go through it, and block it") != std::string::npos;
+    });
+  };
+  const auto disc = [](const std::string& radius, const std::string& axis = "[0, 0, 1]") {
+    return "shape: disc, centre: [50, 25, 50 mm], axis: " + axis +
+           ", radius: 20 mm, hole_radius: " + radius + ", thickness: 2 mm";
+  };
+  CHECK(warned(disc("9.8 mm")) == 1);
+  CHECK(warned(disc("9.8 mm", "[0, 0, -1]")) == 1);
+  CHECK(warned(disc("9.9 mm")) == 0);
+  CHECK(warned(disc("1.9 mm")) == 1);
+  CHECK(warned(disc("0 mm")) == 0);
+  CHECK(warned(disc("5 mm", "[1, 0, 0.1]")) == 0);  // upright: nothing falls through
+  const auto funnel = [](const std::string& radii, const std::string& more = ", thickness: 1 mm") {
+    return "shape: frustum, base: [50, 25, 50 mm], axis: [0, 0, 1], length: 30 mm, " + radii + more;
+  };
+  CHECK(warned(funnel("radius: 5 mm, end_radius: 20 mm")) == 1);
+  CHECK(warned(funnel("radius: 10 mm, end_radius: 20 mm")) == 0);
+  CHECK(warned(funnel("radius: 20 mm, end_radius: 5 mm")) == 0);      // a cap
+  CHECK(warned(funnel("radius: 5 mm, end_radius: 20 mm", "")) == 0);  // solid
+  // A grain alone builds no arch.
+  const std::string one =
+      "{model: single, material: sand, positions: [[50, 25, 150 mm]], diameters: [4 mm]}";
+  CHECK(warned(disc("5 mm"), one) == 0);
+}
+
 TEST_CASE("a body that fast grains may miss at periodic sides shall be warned of") {
   // Grains of 4 mm; between left and right 100 mm apart.
   const auto warnings = [](const std::string& from, const std::string& to) {

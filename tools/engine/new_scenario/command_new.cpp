@@ -50,7 +50,9 @@ void write_new(const Starter& starter, const std::map<std::string, std::string>&
     const bool is_given = at != given.end() && !at->second.empty();
     sizes.push_back(size_in_si(size, is_given ? at->second : size.by_default));
   }
-  write_file(file, starter.write(scenario::name_from_file(file), sizes));
+  const FileNames names{.scenario = scenario::name_from_file(file),
+                        .file = base::shell_word(file.filename().string())};
+  write_file(file, starter.write(names, sizes));
   std::cout << "wrote " << file.string() << "; next: engine check "
             << base::shell_word(file.string()) << '\n';
 }

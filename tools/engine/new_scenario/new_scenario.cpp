@@ -35,10 +35,10 @@ void require(bool do_fit, const std::string& problem) {
   if (!do_fit) throw base::UserError("engine new: error: " + problem);
 }
 
-std::string head_of(const std::string& name, double end, double fluid_step, const char* what) {
+std::string head_of(const FileNames& names, double end, double fluid_step, const char* what) {
   std::ostringstream out;
-  out << "# " << what << "\n# Change what is yours, then: engine check " << name
-      << ".yaml; engine run " << name << ".yaml\nname: " << name
+  out << "# " << what << "\n# Change what is yours, then: engine check " << names.file
+      << "; engine run " << names.file << "\nname: " << names.scenario
       << "\ntime: {end: " << base::digits_text(end, 3)
       << " s, fluid_step: " << base::digits_text(1e3 * fluid_step, 3)
       << " ms, output_every: " << base::digits_text(20.0 * fluid_step * 1e3, 3)
@@ -100,7 +100,7 @@ void check_slice(double width, double grain, double load) {
 }
 
 /// Sizes: speed, drop, flow, width, grain.
-std::string write_transfer(const std::string& name, const std::vector<double>& s) {
+std::string write_transfer(const FileNames& names, const std::vector<double>& s) {
   const double speed = s[0];
   const double drop = s[1];
   const double flow = s[2];
@@ -128,7 +128,7 @@ std::string write_transfer(const std::string& name, const std::vector<double>& s
     return std::to_string(std::max(1, static_cast<int>(extent / cell)));
   };
   std::ostringstream out;
-  out << head_of(name, std::max(end, 40.0 * step), step,
+  out << head_of(names, std::max(end, 40.0 * step), step,
                  "A slice of a belt that hands over its load, and the air around it.")
       << "domain:\n  min: [0, 0, 0]\n  max: [" << mm(x) << ", " << mm(width) << ", " << mm(z)
       << " mm]\n  boundaries:           # x: left, right; y: front, back; z: bottom, top\n"
@@ -159,7 +159,7 @@ std::string write_transfer(const std::string& name, const std::vector<double>& s
 }
 
 /// Sizes: outlet, diameter, mass, grain.
-std::string write_hopper(const std::string& name, const std::vector<double>& s) {
+std::string write_hopper(const FileNames& names, const std::vector<double>& s) {
   const double hole = 0.5 * s[0];
   const double radius = 0.5 * s[1];
   const double mass = s[2];
@@ -174,7 +174,7 @@ std::string write_hopper(const std::string& name, const std::vector<double>& s) 
   const double side = radius + wall + 2.0 * grain;
   const double settled = 1.5 * std::sqrt(2.0 * height / 9.81);
   std::ostringstream out;
-  out << head_of(name, settled + 1.0, 1e-3,
+  out << head_of(names, settled + 1.0, 1e-3,
                  "A hopper with a level bottom: it is filled, and the outlet opens once the grains "
                  "lie.")
       << "domain:\n  min: [" << mm(-side) << ", " << mm(-side) << ", " << mm(-below)

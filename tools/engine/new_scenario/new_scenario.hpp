@@ -14,13 +14,19 @@ struct Size {
   const char* by_default;
 };
 
+/// What the text of a scenario calls itself.
+struct FileNames {
+  std::string scenario;  ///< its `name`
+  std::string file;      ///< as a shell takes it, without its folder
+};
+
 /// A scenario to start from.
 struct Starter {
   const char* name;
   const char* sentence;
   std::vector<Size> sizes;
   /// Text of the file; `sizes` in SI, in the order above.
-  std::string (*write)(const std::string& name, const std::vector<double>& sizes);
+  std::string (*write)(const FileNames& names, const std::vector<double>& sizes);
 };
 
 const std::vector<Starter>& starters();

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preflight/places/outlet_check.hpp"
+
+#include "base/text.hpp"
+#include "bodies/shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace dust::preflight {
+namespace {
+
+using sdk::Vec3;
+
+/// [-] Width of a round outlet over the diameter of the grains below which spheres clog it within
+/// some avalanches: 4.94 (Zuriguel et al. 2005, Physical Review E 71, 051303).
+constexpr double k_arching = 4.94;
+/// Grains that come at once; fewer do not build an arch.
+constexpr std::int64_t k_few = 20;
+
+/// A hole that grains fall through.
+struct Outlet {
+  const char* what = "";
+  double width = 0.0;  ///< [m] 0 = none
+  Vec3 axis;           ///< of any length, out of it
+  bool is_two_way = false;
+};
+
+/// The parameter of a body's shape; its type's zero where there is none.
+template <class T>
+T value_of(const scenario::ModelChoice& shape, const char* name) {
+  for (const bodies::ShapeKind& kind : bodies::shape_catalogue()) {
+    if (kind.name != shape.name) continue;
+    for (std::size_t n = 0; n < kind.parameters.size() && n < shape.values.size(); ++n) {
+      if (kind.parameters[n].name != name) continue;
+      if (const T* value = std::get_if<T>(&shape.values[n])) return *value;
+    }
+  }
+  return T{};
+}
+
+Outlet outlet_of(const scenario::ModelChoice& shape) {
+  const Vec3 axis = value_of<Vec3>(shape, "axis");
+  if (shape.name == "disc") {
+    return {"its hole", 2.0 * value_of<double>(shape, "hole_radius"), axis, true};
+  }
+  if (shape.name != "frustum" || !(value_of<double>(shape, "thickness") > 0.0)) return {};
+  const double first = value_of<double>(shape, "radius");
+  const double last = value_of<double>(shape, "end_radius");
+  return {"its narrow end", 2.0 * std::min(first, last), first < last ? -1.0 * axis : axis};
+}
+
+/// Whether an outlet of a body leads along gravity, within 45 degrees.
+bool looks_down(const scenario::Setup& setup, const scenario::BodySpec& body,
+                const Outlet& outlet) {
+  Vec3 direction = outlet.axis;
+  if (body.frame >= 0) {
+    const scenario::FrameSpec& frame = setup.frames[static_cast<std::size_t>(body.frame)];
+    direction = rotate(direction, frame.axis / norm(frame.axis), frame.angle);
+  }
+  const double along = dot(direction, setup.gravity);
+  return (outlet.is_two_way ? std::abs(along) : along) >
+         std::sqrt(0.5) * norm(direction) * norm(setup.gravity);
+}
+
+bool brings_many(const sdk::Emitter& emitter) {
+  const sdk::EmitterRequest request = emitter.request();
+  return request.mass_flow > 0.0 || request.mass > 0.0 || request.count > k_few;
+}
+
+}  // namespace
+
+void check_outlets(const scenario::Setup& setup, const ParticleModels& models,
+                   scenario::Diagnostics& diagnostics) {
+  double largest = 0.0;
+  for (const auto& emitter : models.emitters) {
+    const std::vector<double> diameters = emitter->diameters();
+    if (brings_many(*emitter) && !diameters.empty()) {
+      largest = std::max(largest, diameters.back());
+    }
+  }
+  for (const scenario::BodySpec& body : setup.bodies) {
+    const Outlet outlet = outlet_of(body.shape);
+    if (!(outlet.width > 0.0 && outlet.width < k_arching * largest)) continue;
+    if (!looks_down(setup, body, outlet)) continue;
+    diagnostics.warning(
+        body.shape.where,
+        "bodies." + body.name + ": " + outlet.what + " of " + base::length_text(outlet.width, 3) +
+            " is " + base::digits_text(outlet.width / largest, 2) +
+            " times as wide as the largest grains (" + base::length_text(largest, 3) + "): " +
+            (outlet.width < largest
+                 ? "they do not go through it, and block it; make it at least "
+                 : "below some 5 times they arch over it and the flow stops, and Beverloo's "
+                   "correlation does not hold; make it at least ") +
+            base::length_text(5.0 * largest, 3) + ", if they are to flow");
+  }
+}
+
+}  // namespace dust::preflight
