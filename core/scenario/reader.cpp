@@ -40,6 +40,7 @@ void check_emitters(Reading& reading) {
 
 /// Two grains must not touch through both sides at once: a pair of grains has one contact.
 void check_periods(Reading& reading) {
+  if (!reading.has_domain) return;
   double largest = 0.0;
   for (const auto& emitter : reading.emitters) {
     for (const double d : static_cast<const sdk::Emitter&>(*emitter).diameters()) {

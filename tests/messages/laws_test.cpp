@@ -83,6 +83,7 @@ Reported reported(const std::string& from = "", const std::string& to = "",
     out.warnings = preflight::read_scenario(folder / "s.yaml", set, shipped(), {}).warnings;
   } catch (const base::UserError& problem) {
     out.errors = problem.lines();
+    out.warnings = problem.warnings();
   }
   fs::remove_all(folder);
   for (auto* lines : {&out.errors, &out.warnings}) {
@@ -154,6 +155,32 @@ TEST_CASE("a gas as thick as syrup shall be warned of") {
                                "1.2 kg/m3 speaks for (5e-06 to 0.0002 Pa s") != std::string::npos);
   CHECK(of("1.2", "18e-6 Pa s").warnings.empty());
   CHECK(of("1260", "1.4 Pa s").warnings.empty());  // glycerol
+}
+
+TEST_CASE("a value that cannot be read shall not be judged as well") {
+  const auto said = [](const std::string& fluid) {
+    return reported("fluid: none",
+                    "fluid: {cells: [5, 5, 25], " + fluid +
+                        "}\ndrag: {model: gidaspow}\nvoidage: {model: centre}",
+                    {{"domain.boundaries.bottom.air", "{model: no_slip}"},
+                     {"domain.boundaries.top.air", "{model: static_pressure, pressure: 0}"}});
+  };
+  const Reported viscosity = said("density: 1.2, viscosity: 1.8e-5 Pa.s");
+  REQUIRE(viscosity.errors.size() == 1);
+  CHECK(viscosity.errors[0].find("unknown unit 'Pa.s'") != std::string::npos);
+  CHECK(viscosity.warnings.empty());
+  const Reported density = said("density: 1000 kg/qm, viscosity: 1.8e-5");
+  CHECK(density.errors.size() == 1);
+  CHECK(density.warnings.empty());
+  // Nor does what is none make a unit that others lack.
+  const Reported corner = reported("min: [0, 0, 0]\n  max: [10, 10, 50 mm]",
+                                   "min: [-0.1, 0, 0]\n  max: [10, 10, 50 mmm]");
+  CHECK(corner.errors.size() == 1);
+  CHECK(corner.warnings.empty());
+  // Nor what is measured against it: the distance of periodic sides.
+  const Reported domain = reported("max: [10, 10, 50 mm]", "max: [10, 10, 50 mmm]");
+  REQUIRE(domain.errors.size() == 1);
+  CHECK(domain.errors[0].find("domain.max: unknown unit 'mmm'") != std::string::npos);
 }
 
 TEST_CASE("a sensor of the air without air shall be warned of") {
@@ -310,6 +337,23 @@ TEST_CASE("a corner without a unit beside one in mm shall be asked about") {
   CHECK(reported("min: [0, 0, 0]", "min: [-10, 0, 0 mm]").warnings.empty());
   CHECK(reported("max: [10, 10, 50 mm]", "max: [0.01, 0.01, 0.05 m]").warnings.empty());
   CHECK(reported().warnings.empty());
+}
+
+TEST_CASE("a vector without a unit among others in mm shall be asked about") {
+  const auto grains = [](const std::string& positions) {
+    return reported("emitters:\n",
+                    "emitters:\n  some: {model: single, material: sand, diameters: [0.3 mm], "
+                    "positions: " +
+                        positions + "}\n");
+  };
+  const Reported mixed = grains("[[0, 0, 0], [2, 2, 5], [3, 3, 5], [4, 4, 5 mm]]");
+  CHECK(mixed.errors.empty());
+  REQUIRE(mixed.warnings.size() == 1);
+  CHECK(mixed.warnings[0] ==
+        "s.yaml:27:85: warning: emitters.some.positions[1]: has no unit and is read in m, while "
+        "emitters.some.positions[3] is in mm: write mm or m behind its last number");
+  CHECK(grains("[[0, 0, 0], [2, 2, 5 mm], [3, 3, 5 mm]]").warnings.empty());
+  CHECK(grains("[[0.002, 0.002, 0.005], [0.003, 0.003, 0.005 m]]").warnings.empty());
 }
 
 TEST_CASE("a fixed step above the stable one shall be told: warned of, or refused") {

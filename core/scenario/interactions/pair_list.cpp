@@ -5,6 +5,7 @@
 #include "scenario/text/suggest.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace dust::scenario {
@@ -50,6 +51,15 @@ Node* find(Node& interactions, const Pair& pair) {
     if (one.is_map() && !pair.first.empty() && pair_in(one) == pair) return &one;
   }
   return nullptr;
+}
+
+/// A pair that one file gives a second time, complete, so that the reader refuses it for that
+/// alone.
+Node repeated(const Node& first, Node again) {
+  Node whole = first;
+  whole.where = again.where;
+  merge_interaction(whole, std::move(again));
+  return whole;
 }
 
 /// Follows `like` from pair to pair.
@@ -125,14 +135,18 @@ std::vector<std::string> pair_names(const Node& interactions) {
 }
 
 void merge_pairs(Node& base, Node over) {
+  std::set<Pair> given;
   for (Node& one : over.items) {
     Node* same = one.is_map() ? find(base, pair_in(one)) : nullptr;
-    if (same != nullptr) {
-      const Mark where = one.where;
+    const Mark where = one.where;
+    if (same != nullptr && !given.insert(pair_in(one)).second) {
+      base.items.push_back(repeated(*same, std::move(one)));
+    } else if (same != nullptr) {
       std::erase_if(one.entries, [](const Entry& e) { return e.key == "between"; });
       merge_interaction(*same, std::move(one));
       same->where = where;
     } else {
+      given.insert(pair_in(one));
       base.items.push_back(std::move(one));
     }
   }

@@ -17,7 +17,8 @@ Node* find_pair(Node& interactions, const std::string& name);
 std::vector<std::string> pair_names(const Node& interactions);
 
 /// Lays the interactions `over` on those of an included file: a pair that is there is completed key
-/// by key (a law under another `model` is replaced), others are added.
+/// by key (a law under another `model` is replaced), others are added. One that `over` gives twice
+/// stays twice, for the reader to refuse.
 void merge_pairs(Node& base, Node over);
 
 /// Fills in what `like: [sand, belt]` takes over from another pair; the own keys stay. A `like`

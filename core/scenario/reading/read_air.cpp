@@ -51,6 +51,8 @@ void check_region(Reading& reading, const Entry& entry, const std::string& path,
     if (!(region.max[d] > region.min[d])) {
       reading.error(mark_of(entry.value, "max"),
                     path + ".max: " + axis + " is not above that of min");
+    } else if (!reading.has_domain) {
+      continue;
     } else if (region.max[d] <= reading.setup.domain.min[d] ||
                region.min[d] >= reading.setup.domain.max[d]) {
       reading.error(entry.where, path + ": the region lies outside the domain along " + axis);
@@ -117,7 +119,7 @@ void read_fluid(Reading& reading, MapReader& top) {
                                                       " cells; at most " +
                                                       number_text(k_max_cells) + " can be counted");
   }
-  check_gas(reading, entry->value, fluid);
+  if (reader.is_good()) check_gas(reading, entry->value, fluid);
   spec.density = fluid.density;
   spec.viscosity = fluid.viscosity;
   spec.momentum_set = fluid.momentum_set;
@@ -216,7 +218,7 @@ void read_fluid_forces(Reading& reading, MapReader& top) {
 }
 
 void check_voidage(Reading& reading) {
-  if (!reading.voidage || !reading.setup.fluid) return;
+  if (!reading.voidage || !reading.setup.fluid || !reading.has_domain) return;
   double spacing = std::numeric_limits<double>::infinity();
   for (int d = 0; d < 3; ++d) {
     const double width = reading.setup.domain.max[d] - reading.setup.domain.min[d];

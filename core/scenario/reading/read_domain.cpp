@@ -177,8 +177,10 @@ void read_domain(Reading& reading, MapReader& top) {
   Node written = written_block<DomainBlock>(values);
   reading.setup.domain.min = domain.min;
   reading.setup.domain.max = domain.max;
+  reading.has_domain = has_corners;
   for (int d = 0; d < 3 && has_corners; ++d) {
     if (domain.max[d] > domain.min[d]) continue;
+    reading.has_domain = false;
     reading.error(mark_of(entry->value, "max"),
                   std::string("domain.max: ") + "xyz"[d] + " = " + number_text(domain.max[d]) +
                       " m is not above that of domain.min, " + number_text(domain.min[d]) + " m");

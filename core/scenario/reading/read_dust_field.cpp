@@ -34,7 +34,7 @@ void check_box(Reading& reading, const Node& given, const std::string& path, sdk
       return;
     }
     // Of a domain that is wrong, it is told there.
-    if (!(domain.min[d] < domain.max[d])) return;
+    if (!reading.has_domain) return;
     const bool is_flat = min[d] == max[d];
     if (is_flat ? min[d] >= domain.min[d] && max[d] <= domain.max[d]
                 : min[d] < domain.max[d] && max[d] > domain.min[d]) {

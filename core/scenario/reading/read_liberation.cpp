@@ -39,7 +39,7 @@ void read_feed_zones(Reading& reading, MapReader& dust, Node& written) {
     const auto read = block<FeedZoneBlock>(reader, &values);
     reader.finish();
     const FeedZoneSpec zone{entry.key, read.min, read.max};
-    if (reader.is_good() && !is_box_in_domain(zone, reading.setup.domain)) {
+    if (reader.is_good() && reading.has_domain && !is_box_in_domain(zone, reading.setup.domain)) {
       reading.error(entry.where, "dust." + path +
                                      ": no part of the box lies in the domain; min is its lower "
                                      "corner, max its upper one");

@@ -38,6 +38,7 @@ struct Reading {
   ScenarioNames names;
   ModelReader models;
   bool has_fluid = false;             ///< the scenario asks for one
+  bool has_domain = false;            ///< its corners are understood
   bool pairs_are_read = true;         ///< all that is said of pairs of materials is understood
   std::vector<std::string> bridging;  ///< materials whose moisture makes liquid bridges
 

@@ -399,6 +399,12 @@ std::string unit_in(const Node& node, double& largest) {
   return unit;
 }
 
+/// What is none is told by the value it stands behind.
+bool is_unit_of(const std::string& unit, sdk::Dimension dimension) {
+  const auto parsed = unit.empty() ? std::nullopt : parse_unit(unit);
+  return parsed && parsed->dimension == dimension;
+}
+
 }  // namespace
 
 std::string likely_unit(sdk::Dimension dimension, double value) {
@@ -419,6 +425,9 @@ void MapReader::warn_of_bare_numbers(const sdk::ParameterSchema& schema) {
     const Entry* entry = node_.is_map() ? node_.find(parameter.name) : nullptr;
     if (entry == nullptr || si.empty()) continue;
     if (diagnostics_.is_resolved_file(entry->value.where.file)) continue;
+    if (parameter.type == ParameterType::vectors) {
+      warn_of_bare_vector(entry->value, parameter);
+    }
     double largest = 0.0;
     if (!unit_in(entry->value, largest).empty() || largest == 0.0) continue;
     if (parameter.type == ParameterType::vector && warn_of_bare_neighbour(schema, parameter)) {
@@ -434,6 +443,29 @@ void MapReader::warn_of_bare_numbers(const sdk::ParameterSchema& schema) {
   }
 }
 
+/// In a list of vectors each has a unit of its own: `[[10, 10, 5], [30, 10, 5 mm]]` begins 10 m
+/// off.
+void MapReader::warn_of_bare_vector(const Node& vectors, const Parameter& parameter) {
+  const std::string path = path_of(parameter.name);
+  const std::string si = si_unit(parameter.dimension);
+  std::size_t bare = vectors.items.size();
+  std::size_t other = vectors.items.size();
+  std::string unit;
+  for (std::size_t n = vectors.items.size(); n-- > 0;) {
+    double largest = 0.0;
+    const std::string own = unit_in(vectors.items[n], largest);
+    if (own.empty() && largest != 0.0) bare = n;
+    if (own == si || !is_unit_of(own, parameter.dimension)) continue;
+    other = n;
+    unit = own;
+  }
+  if (bare == vectors.items.size() || unit.empty()) return;
+  diagnostics_.warning(vectors.items[bare].where,
+                       path + "[" + std::to_string(bare) + "]: has no unit and is read in " + si +
+                           ", while " + path + "[" + std::to_string(other) + "] is in " + unit +
+                           ": write " + unit + " or " + si + " behind its last number");
+}
+
 /// Reported where another vector of the same map has a unit.
 bool MapReader::warn_of_bare_neighbour(const sdk::ParameterSchema& schema,
                                        const Parameter& parameter) {
@@ -443,7 +475,8 @@ bool MapReader::warn_of_bare_neighbour(const sdk::ParameterSchema& schema,
     if (beside == nullptr || other.type != ParameterType::vector) continue;
     double ignored = 0.0;
     const std::string unit = unit_in(beside->value, ignored);
-    if (!(other.dimension == parameter.dimension) || unit.empty() || unit == si) continue;
+    if (!(other.dimension == parameter.dimension) || unit == si) continue;
+    if (!is_unit_of(unit, parameter.dimension)) continue;
     diagnostics_.warning(node_.find(parameter.name)->value.where,
                          path_of(parameter.name) + ": has no unit and is read in " + si +
                              ", while " + path_of(other.name) + " is in " + unit + ": write " +

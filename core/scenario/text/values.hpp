@@ -70,6 +70,7 @@ class MapReader {
  private:
   void warn_of_bare_numbers(const sdk::ParameterSchema& schema);
   bool warn_of_bare_neighbour(const sdk::ParameterSchema& schema, const sdk::Parameter& parameter);
+  void warn_of_bare_vector(const Node& vectors, const sdk::Parameter& parameter);
 
   const Node& node_;
   std::string path_;

@@ -151,6 +151,27 @@ TEST_CASE("an including file shall complete interactions pair by pair and add ot
   CHECK(setup.interactions[0].contact.values == plain.interactions[0].contact.values);
 }
 
+TEST_CASE("a pair that one file gives twice shall be refused, whatever that file includes") {
+  const Folder folder;
+  folder.write("base.yaml", text_of(transfer_point()));
+  const auto lines = [&](const std::string& interactions) {
+    return problems(
+        folder.write("over.yaml", "include: base.yaml\ninteractions:\n" + interactions));
+  };
+  const auto twice = lines(
+      "  - {between: [sand, belt], contact: {friction: 0.1}}\n"
+      "  - {between: [belt, sand], contact: {friction: 0.2}}\n");
+  REQUIRE(twice.size() == 1);
+  CHECK(twice[0].ends_with(
+      "over.yaml:4:5: error: interactions[4]: the pair [belt, sand] is already given in line 3"));
+  // The same of a pair that the other file has not.
+  const auto more = lines(
+      "  - {between: [plate, belt], like: [sand, belt]}\n"
+      "  - {between: [belt, plate], like: [sand, plate]}\n");
+  REQUIRE(more.size() == 1);
+  CHECK(more[0].ends_with("the pair [belt, plate] is already given in line 3"));
+}
+
 TEST_CASE("a pair shall be completed by another one it is like") {
   const Folder folder;
   std::string text = text_of(transfer_point());
