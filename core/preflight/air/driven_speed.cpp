@@ -54,7 +54,7 @@ double side_speed(const Setup& setup, const SideModels& sides, std::size_t side)
   if (sides[side]->rules().normal_velocity != SideRule::fixed) return 0.0;
   SideFaces faces(setup, side);
   double largest = 0.0;
-  for (const double time : instants(setup)) {
+  for (const double time : instants(setup, sides)) {
     faces.ask(*sides[side], time);
     largest = std::max(largest, faces.largest_speed());
   }
@@ -121,7 +121,7 @@ std::array<double, 6> side_flows(const Setup& setup, const SideModels& sides) {
     if (sides[n] == nullptr || is_too_large(setup, n)) continue;
     if (sides[n]->rules().normal_velocity != SideRule::fixed) continue;
     SideFaces faces(setup, n);
-    for (const double time : instants(setup)) {
+    for (const double time : instants(setup, sides)) {
       faces.ask(*sides[n], time);
       const double flow = faces.inflow();
       if (std::abs(flow) > std::abs(flows[n])) flows[n] = flow;

@@ -154,7 +154,7 @@ void check_flow(const Setup& setup, const SideModels& sides, Diagnostics& diagno
   const bool is_open = gives_way(sides);
   AllFaces all;
   std::array<double, 6> flows{};
-  for (const double time : instants(setup)) {
+  for (const double time : instants(setup, sides)) {
     if (!find_flows(setup, sides, all, time, flows, diagnostics)) return;
     if (is_open) continue;
     const Balance b = balance_of(setup, flows, time);

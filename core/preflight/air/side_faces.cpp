@@ -3,19 +3,41 @@
 
 #include "fluid/properties.hpp"
 
+#include <iterator>
+#include <variant>
+
 namespace dust::preflight {
 namespace {
 
 constexpr std::size_t k_max_faces = 4'000'000;
 
+/// Adds the times among the parameters of a side's model.
+void add_times(const scenario::ModelChoice& air, const registry::Registry& registry,
+               std::vector<double>& times) {
+  const registry::Entry* entry = registry.find(air.kind, air.name);
+  if (entry == nullptr) return;
+  const sdk::ParameterSchema& parameters = entry->info.parameters;
+  for (std::size_t n = 0; n < parameters.size() && n < air.values.size(); ++n) {
+    if (!(parameters[n].dimension == sdk::dimension::time)) continue;
+    if (const auto* one = std::get_if<double>(&air.values[n])) times.push_back(*one);
+    if (const auto* all = std::get_if<std::vector<double>>(&air.values[n])) {
+      times.insert(times.end(), all->begin(), all->end());
+    }
+  }
+}
+
 }  // namespace
 
 SideModelSet::SideModelSet(const Setup& setup, const registry::Registry& registry) {
+  std::array<const sdk::BoundaryCondition*, 6> models{};
+  std::vector<double> corners;
   for (std::size_t n = 0; n < 6; ++n) {
     const auto& air = setup.domain.sides[n].air;
     if (air) made_[n] = registry.create_as<sdk::BoundaryCondition>(*air);
-    models_[n] = made_[n].get();
+    models[n] = made_[n].get();
+    if (air) add_times(*air, registry, corners);
   }
+  models_ = SideModels(models, std::move(corners));
 }
 
 SideFaces::SideFaces(const scenario::Setup& setup, std::size_t side) {
@@ -72,10 +94,20 @@ std::string path_of_side(std::size_t side) {
   return std::string("domain.boundaries.") + scenario::k_side_names[side];
 }
 
-std::vector<double> instants(const scenario::Setup& setup) {
+std::vector<double> instants(const scenario::Setup& setup, const SideModels& sides) {
   constexpr int k_steps = 16;
   std::vector<double> times;
   for (int step = 0; step <= k_steps; ++step) times.push_back(setup.time.end * step / k_steps);
+  const auto add_within = [&](const std::vector<double>& corners) {
+    std::copy_if(corners.begin(), corners.end(), std::back_inserter(times),
+                 [&](double time) { return time > 0.0 && time < setup.time.end; });
+  };
+  add_within(sides.corners());
+  for (const scenario::BodySpec& body : setup.bodies) {
+    if (body.suction) add_within(body.suction->times);
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
 

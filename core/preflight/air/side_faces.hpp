@@ -12,13 +12,28 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dust::preflight {
 
 /// The air's models of the six sides, in the order of scenario::k_side_names; null where periodic
 /// or wrong.
-using SideModels = std::array<const sdk::BoundaryCondition*, 6>;
+class SideModels {
+ public:
+  SideModels() = default;
+  SideModels(std::array<const sdk::BoundaryCondition*, 6> models, std::vector<double> corners)
+      : models_(models), corners_(std::move(corners)) {}
+  const sdk::BoundaryCondition* operator[](std::size_t side) const { return models_[side]; }
+  [[nodiscard]] auto begin() const { return models_.begin(); }
+  [[nodiscard]] auto end() const { return models_.end(); }
+  /// [s] All times among the parameters of the models: what they drive may turn there.
+  [[nodiscard]] const std::vector<double>& corners() const { return corners_; }
+
+ private:
+  std::array<const sdk::BoundaryCondition*, 6> models_{};
+  std::vector<double> corners_;
+};
 
 /// Makes them.
 class SideModelSet {
@@ -99,7 +114,9 @@ class SideFaces {
 /// "domain.boundaries.left"
 [[nodiscard]] std::string path_of_side(std::size_t side);
 
-/// [s] Of the run at which flows are looked at, the end included.
-[[nodiscard]] std::vector<double> instants(const scenario::Setup& setup);
+/// [s] Of the run at which flows are looked at, ascending: evenly over it, the end included, and
+/// where the given course of one turns, of an opening of a body or of a side.
+[[nodiscard]] std::vector<double> instants(const scenario::Setup& setup,
+                                           const SideModels& sides = {});
 
 }  // namespace dust::preflight

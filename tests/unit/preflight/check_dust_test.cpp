@@ -35,15 +35,22 @@ TEST_CASE("a check shall say what dust the load carries, what sets it free and w
 }
 
 TEST_CASE("a check shall say how much air a side drives, and which way") {
-  const auto side = [](const std::string& flow) {
-    const auto outcome = engine({"check", k_plant, "--set", "dust.hoods=null", "--set",
-                                 "domain.boundaries.top.air.flow=" + flow});
+  const auto side = [](const std::string& flow, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"check", k_plant,
+                                       "--set", "dust.hoods=null",
+                                       "--set", "domain.boundaries.top.air.flow=" + flow};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto outcome = engine(arguments);
     REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
     const auto at = outcome.out.find("top: ");
     return outcome.out.substr(at, outcome.out.find('\n', at) - at);
   };
   CHECK(side("1800 m3/h").ends_with(", air: hood, 1800 m3/h out"));
   CHECK(side("-1800 m3/h").ends_with(", air: hood, 1800 m3/h in"));
+  // Where it is largest, be that in between any times that are evenly spread.
+  CHECK(side("1800 m3/h", {"--set", "domain.boundaries.top.air.times=[0.11, 0.12, 0.13 s]", "--set",
+                           "domain.boundaries.top.air.factors=[0, 1, 0.2]"})
+            .ends_with(", air: hood, 1800 m3/h out"));
 }
 
 TEST_CASE("the numbers of a check shall hold the flow of dust by class") {
