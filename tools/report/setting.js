@@ -53,13 +53,25 @@ Dust.sections.setting = ({setting, bodies}) => {
       return Math.max(width, height) < 40 ? [x + width + 11, z - 11] : [x + width / 2, z + height / 2];
     }
     const x = picture.x(thing.at[0]), z = picture.z(thing.at[2]);
-    pen.setLineDash([]);
-    pen.beginPath();
-    pen.moveTo(x - 7, z);
-    pen.lineTo(x + 7, z);
-    pen.moveTo(x, z - 7);
-    pen.lineTo(x, z + 7);
-    pen.stroke();
+    const cross = (a, b) => {
+      pen.setLineDash([]);
+      pen.beginPath();
+      pen.moveTo(a - 7, b);
+      pen.lineTo(a + 7, b);
+      pen.moveTo(a, b - 7);
+      pen.lineTo(a, b + 7);
+      pen.stroke();
+    };
+    cross(x, z);
+    if (thing.to) {
+      const end = [picture.x(thing.to[0]), picture.z(thing.to[2])];
+      cross(...end);
+      pen.setLineDash([4, 3]);
+      pen.beginPath();
+      pen.moveTo(x, z);
+      pen.lineTo(...end);
+      pen.stroke();
+    }
     return [x + 11, z - 11];
   };
   const badge = (pen, x, z, text, colour) => {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace dust::run {
 namespace {
@@ -41,6 +42,39 @@ Vec3 in_domain(const scenario::Setup& setup, Vec3 at, int frame_index) {
 
 Json vector_json(Vec3 v) { return {v.x, v.y, v.z}; }
 
+/// [m] A parameter of a model that is a length, 0 if it has none of that name.
+double length_of(const registry::Entry& entry, const ModelChoice& choice, const char* name) {
+  for (std::size_t n = 0; n < choice.values.size() && n < entry.info.parameters.size(); ++n) {
+    const auto* v = std::get_if<double>(&choice.values[n]);
+    if (entry.info.parameters[n].name == name && v != nullptr) return *v;
+  }
+  return 0.0;
+}
+
+/// The corners of the box round a cylinder or frustum between two points.
+std::pair<Vec3, Vec3> box_round(Vec3 from, double radius, Vec3 to, double end_radius) {
+  const Vec3 axis = (to - from) / norm(to - from);
+  Vec3 low, high;
+  for (int d = 0; d < 3; ++d) {
+    const double square = std::sqrt(std::max(0.0, 1.0 - axis[d] * axis[d]));
+    low[d] = std::min(from[d] - square * radius, to[d] - square * end_radius);
+    high[d] = std::max(from[d] + square * radius, to[d] + square * end_radius);
+  }
+  return {low, high};
+}
+
+/// The place of a thing that reaches from one point to another: of a round one the box round it.
+void add_reach(Vec3 from, Vec3 to, double radius, double end_radius, Json& j) {
+  if (!(radius > 0.0) || from == to) {
+    j["at"] = vector_json(from);
+    j["to"] = vector_json(to);
+    return;
+  }
+  const auto [low, high] = box_round(from, radius, to, end_radius > 0.0 ? end_radius : radius);
+  j["min"] = vector_json(low);
+  j["max"] = vector_json(high);
+}
+
 /// Name, model and place of an emitter or a sensor.
 Json thing_json(const scenario::Setup& setup, const registry::Registry& registry,
                 const std::string& name, const ModelChoice& choice, int frame) {
@@ -50,9 +84,17 @@ Json thing_json(const scenario::Setup& setup, const registry::Registry& registry
   j["what"] = entry->info.summary;
   const auto min = point_of(*entry, choice, "min");
   const auto max = point_of(*entry, choice, "max");
-  if (min && max) {
+  const bool is_box = min && max && *min != *max;
+  if (is_box) {
     j["min"] = vector_json(in_domain(setup, *min, frame));
     j["max"] = vector_json(in_domain(setup, *max, frame));
+    return j;
+  }
+  const auto from = point_of(*entry, choice, "from");
+  const auto to = point_of(*entry, choice, "to");
+  if (from && to) {
+    add_reach(in_domain(setup, *from, frame), in_domain(setup, *to, frame),
+              length_of(*entry, choice, "radius"), length_of(*entry, choice, "end_radius"), j);
     return j;
   }
   for (const char* key : {"from", "point", "position", "positions", "origin", "center", "centre"}) {

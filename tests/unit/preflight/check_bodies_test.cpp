@@ -13,6 +13,7 @@
 
 using dust::test::approx;
 using dust::test::engine;
+using dust::test::read_file;
 using dust::test::TemporaryFolder;
 
 namespace {
@@ -201,4 +202,31 @@ TEST_CASE("a run shall refuse an opening that meets no fluid with the line of it
   CHECK(outcome.err.find("hood.yaml:18:5: error: bodies.hood.suction: no part of the body's "
                          "surface between min and max meets the fluid") != std::string::npos);
   CHECK_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_CASE("a drawing of the set-up shall have both ends of what reaches from one to the other") {
+  const TemporaryFolder folder;
+  const auto file = write_scenario(folder, 0.1, "1 g/s");
+  const fs::path page = folder / "setup.html";
+  const auto outcome = engine(
+      {"check", file, "-o", page, "--set",
+       "emitters.bed={model: fill, material: sand, region: cylinder, from: [50, 70, 10 mm], to: "
+       "[50, 70, 60 mm], radius: 10 mm, end_radius: 20 mm, count: 10, diameters: [1 mm], "
+       "mass_fractions: [1]}",
+       "--set", "sensors.drop={model: pressure_drop, from: [10, 50, 10 mm], to: [10, 50, 90 mm]}"});
+  REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const std::string text = read_file(page);
+  const std::string head = "id=\"run-data\">";
+  const auto at = text.find(head) + head.size();
+  const auto setting = Json::parse(text.substr(at, text.find("</script>", at) - at))["setting"];
+  const auto& bed = setting["emitters"][1];
+  REQUIRE(bed["name"] == "bed");
+  CHECK(bed["min"][0].get<double>() == approx(0.03));
+  CHECK(bed["min"][2].get<double>() == approx(0.01));
+  CHECK(bed["max"][1].get<double>() == approx(0.09));
+  CHECK(bed["max"][2].get<double>() == approx(0.06));
+  const auto& drop = setting["sensors"][0];
+  CHECK(drop["at"][2].get<double>() == approx(0.01));
+  CHECK(drop["to"][0].get<double>() == approx(0.01));
+  CHECK(drop["to"][2].get<double>() == approx(0.09));
 }
