@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "dust/sdk/error.hpp"
 
+#include <cmath>
 #include <string>
 
 namespace dust::run {
@@ -60,6 +61,19 @@ std::string overlap_warning(const particles::DemReport& report, double expected_
            " of their radius; the report tells what that does (time.rates: single has none of it)";
   }
   return {};
+}
+
+std::string energy_warning(const particles::EnergyBalance& balance) {
+  constexpr double k_open = 0.1;
+  const double error = balance.relative_error();
+  if (std::abs(error) < k_open) return {};
+  const std::string joules = base::plain_text(std::abs(balance.error()), 3) + " J, " +
+                             base::plain_text(100.0 * std::abs(error), 3) +
+                             " % of all that was turned over, ";
+  return "the energy of the grains does not add up: " + joules +
+         (error < 0.0 ? "came out of nothing" : "went without a trace") +
+         "; likely causes: steps too long for the stiffness or the speeds (time.expected_speed), "
+         "overlaps at entry, or grains caught in a round hole that is narrower than they are";
 }
 
 }  // namespace dust::run

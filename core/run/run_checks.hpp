@@ -16,4 +16,8 @@ void check_finite(const sdk::GrainColumns& particles);
 /// [m/s]: that its steps are made for.
 std::string overlap_warning(const particles::DemReport& report, double expected_speed);
 
+/// What an account of energy that does not close tells of a run, "" where a tenth of what was
+/// turned over holds the error.
+std::string energy_warning(const particles::EnergyBalance& balance);
+
 }  // namespace dust::run

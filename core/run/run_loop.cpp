@@ -197,6 +197,9 @@ int RunLoop::close() {
   const std::string overlaps = overlap_warning(dem.report(), dem.time_steps().expected_speed);
   // A run that failed has its own reason, often this one.
   if (!overlaps.empty() && facts_.status != "failed") warn(overlaps, facts_);
+  const std::string energy =
+      simulation_.setup().audit.energy ? energy_warning(dem.energy()) : std::string();
+  if (!energy.empty() && facts_.status != "failed") warn(energy, facts_);
   for (const std::string& text : audit_lines(simulation_, recorder_.forces())) {
     base::log_info(text);
   }

@@ -101,6 +101,9 @@ class DustQuantities {
     for (const std::string& name : classes_) add_class("dust_field.classes." + name + ".");
     add("dust_field.sub_steps", "1");
     for (const std::string& way : ways_out()) add_all(k_of_outflow, "dust_outflow." + way + ".");
+    for (const std::string& side : closed_sides()) {
+      add_all(k_of_outflow, "dust_outflow." + side + ".", "dust_field.sub_steps");
+    }
     add_rates();
     add_indices();
     if (dust_.liberation) {
@@ -131,7 +134,7 @@ class DustQuantities {
       add(of + "deposited_kg." + surface, "kg", beside);
     }
     for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
-      if (!lets_dust_out(side)) continue;
+      if (is_periodic(side)) continue;
       add(of + "left_kg." + scenario::k_side_names[side], "kg", beside);
     }
     for (const std::string& hood : hoods_) add(of + "hoods_kg." + hood, "kg");
@@ -153,10 +156,16 @@ class DustQuantities {
 
   /// Of a way all of it, and each of its parts; parts without dust may be left out.
   void add_way(const std::string& way, const std::vector<std::string>& parts, bool is_way_out) {
+    for (const DustName& n : k_of_rate) {
+      all_.push_back({"dust_rates." + way + ".all." + n.name, n.unit, true, {}});
+    }
+    add_parts(way, parts, is_way_out);
+  }
+
+  void add_parts(const std::string& way, const std::vector<std::string>& parts, bool is_way_out) {
     const std::string of = "dust_rates." + way + ".";
     for (const DustName& n : k_of_rate) {
       const std::string all = of + "all." + n.name;
-      all_.push_back({all, n.unit, true, {}});
       for (const std::string& part : parts) {
         all_.push_back({of + part + "." + n.name, n.unit, true, is_way_out ? std::string() : all});
       }
@@ -168,7 +177,10 @@ class DustQuantities {
     for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
       if (lets_dust_out(side)) open.emplace_back(scenario::k_side_names[side]);
     }
-    if (!open.empty()) add_way("left", open, true);
+    if (!open.empty()) {
+      add_way("left", open, true);
+      add_parts("left", closed_sides(), false);
+    }
     if (!hoods_.empty()) add_way("drawn_out", hoods_, true);
     add_way("deposited", settled_on(), false);
     if (dust_.liberation) {
@@ -194,6 +206,20 @@ class DustQuantities {
         all_.push_back({of + "impact." + cause + "." + n.name, n.unit, true, all});
       }
     }
+  }
+
+  [[nodiscard]] bool is_periodic(std::size_t side) const {
+    return setup_.domain.sides[side].grains == scenario::GrainSide::periodic;
+  }
+
+  /// Sides that let none out, where another point of a study may: its wind comes from elsewhere.
+  [[nodiscard]] std::vector<std::string> closed_sides() const {
+    std::vector<std::string> names;
+    for (std::size_t side = 0; side < scenario::k_side_names.size(); ++side) {
+      if (is_periodic(side) || has_hood(dust_, side) || lets_dust_out(side)) continue;
+      names.emplace_back(scenario::k_side_names[side]);
+    }
+    return names;
   }
 
   /// As run::DustStage::lets_dust_out.

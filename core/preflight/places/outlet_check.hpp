@@ -7,8 +7,8 @@
 
 namespace dust::preflight {
 
-/// Warns of holes of discs and narrow ends of funnels that look down and are so narrow that grains
-/// arch over them, where there are grains enough for that.
+/// Warns of holes of discs and narrow ends of funnels that are narrower than a grain, and of those
+/// that look down and are so narrow that grains arch over them, where there are enough for that.
 void check_outlets(const scenario::Setup& setup, const ParticleModels& models,
                    scenario::Diagnostics& diagnostics);
 

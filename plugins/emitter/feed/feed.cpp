@@ -50,7 +50,8 @@ class Feed final : public sdk::Emitter {
              "Lower corner of the opening; flat along one axis, where it equals max.");
     s.vector(&Parameters::max, "max", dim::length, "Upper corner of the opening.");
     s.vector(&Parameters::velocity, "velocity", dim::velocity,
-             "Velocity of the grains as they pass the opening.");
+             "Velocity of the grains where they are released, the largest radius behind the "
+             "opening; falling lumps are faster when they are through it.");
     sdk::declare_sizes(s);
     s.number(&Parameters::rare_below, "rare_below", dim::length,
              "Smaller grains are released as copies_of_rare copies of weight 1 / copies_of_rare.")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "discharge.hpp"
 
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -135,7 +136,7 @@ class Discharge final : public sdk::Sensor {
                 sdk::detail(sdk::Quantity::time));
     sink.figure("duration", has_passed() ? sums_[k_last] - sums_[k_first] : sdk::k_no_value, "s",
                 none, sdk::detail(sdk::Quantity::time));
-    sink.figure("rate", rate.value, "kg/s", rate.error, k_passage.of(sdk::Quantity::mass_rate));
+    sink.figure("rate", rate.value, "kg/s", rate.error, sdk::overview(sdk::Quantity::mass_rate, 1));
     sink.figure("number_rate", numbers.value, "1/s", numbers.error,
                 k_passage.of(sdk::Quantity::number_rate));
     sink.figure("beverloo_rate", expected, "kg/s", sdk::error_beside(expected, sdk::k_no_estimate),

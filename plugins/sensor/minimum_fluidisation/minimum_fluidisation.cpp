@@ -2,6 +2,7 @@
 #include "minimum_fluidisation.hpp"
 
 #include <dust/sdk/fluid_cells.hpp>
+#include <dust/sdk/overview.hpp>
 #include <dust/sdk/plugin.hpp>
 #include <dust/sdk/sampling.hpp>
 
@@ -83,8 +84,8 @@ class MinimumFluidisation final : public sdk::Sensor {
   }
   void summary(sdk::FigureSink& sink) const override {
     const auto [rising, falling] = branches();
-    write(sink, "rising/", formula::evaluate(rising, p_.fixed_share, p_.fluid_factor));
-    write(sink, "falling/", formula::evaluate(falling, p_.fixed_share, p_.fluid_factor));
+    write(sink, "rising/", formula::evaluate(rising, p_.fixed_share, p_.fluid_factor), 2);
+    write(sink, "falling/", formula::evaluate(falling, p_.fixed_share, p_.fluid_factor), 1);
   }
   void report(sdk::ReportSink& sink) const override {
     const auto [rising, falling] = branches();
@@ -174,9 +175,10 @@ class MinimumFluidisation final : public sdk::Sensor {
     }
     return b;
   }
-  static void write(sdk::FigureSink& sink, const std::string& name, const formula::Ramp& ramp) {
+  static void write(sdk::FigureSink& sink, const std::string& name, const formula::Ramp& ramp,
+                    int rank) {
     sink.figure(name + "by_pressure", ramp.by_pressure.velocity, "m/s", ramp.by_pressure.error,
-                sdk::detail(sdk::Quantity::velocity));
+                sdk::overview(sdk::Quantity::velocity, rank));
     sink.figure(name + "by_height", ramp.by_height.velocity, "m/s", ramp.by_height.error,
                 sdk::detail(sdk::Quantity::velocity));
     sink.figure(name + "plateau", ramp.plateau, "Pa",

@@ -98,3 +98,18 @@ TEST_CASE("a body shall go when its time has come or its grains have come to res
   CHECK(dust::run::remove_bodies(setup, 0.5 - 1e-13, still.rows(), bodies));  // rounding
   CHECK(bodies[0].is_removed());
 }
+
+TEST_CASE("an account of energy that does not close shall be warned of with what is missing") {
+  dust::particles::EnergyBalance balance;
+  balance.gravity = 2.0;
+  balance.lost_friction = 1.9;
+  CHECK(dust::run::energy_warning(balance).empty());  // 0.1 J of 3.9
+  balance.lost_normal = 1.0;
+  const std::string more = dust::run::energy_warning(balance);
+  CHECK(more.find("0.9 J, 18.4 % of all that was turned over, came out of nothing") !=
+        std::string::npos);
+  balance.lost_normal = 0.0;
+  balance.lost_friction = 1.0;
+  CHECK(dust::run::energy_warning(balance).find("went without a trace") != std::string::npos);
+  CHECK(dust::run::energy_warning({}).empty());
+}
