@@ -75,8 +75,8 @@ FluidSolver::Impl::StepState FluidSolver::Impl::begin_step(double time, double s
 /// share of the last sub-step.
 double FluidSolver::Impl::advance_part(const StepState& s, double begin, double end) {
   begin_part(s, begin, end);
-  const double until = end * s.step;
-  double done = begin * s.step;
+  const double until = end < 1.0 ? end * s.step : s.step;
+  double done = begin > 0.0 ? begin * s.step : 0.0;
   double last_share = 1.0;
   while (done < until) {
     const Momentum::Rates rates = limits_.find(u_, s.time + done);
@@ -97,8 +97,8 @@ double FluidSolver::Impl::advance_part(const StepState& s, double begin, double 
 }
 
 void FluidSolver::Impl::begin_part(const StepState& s, double begin, double end) {
-  const double until = end * s.step;
-  const double done = begin * s.step;
+  const double until = end < 1.0 ? end * s.step : s.step;
+  const double done = begin > 0.0 ? begin * s.step : 0.0;
   if (has_moving_bodies()) {
     recut(s.time + done, s.time + until);
   } else {
@@ -182,12 +182,12 @@ void FluidSolver::Impl::end_step(const StepState& s, double last_share) {
   const FaceField& given = s.exchange.source;
   VelocityForcing* const forcing = stages_.forcing();
   const FaceField& source = forcing != nullptr ? forcing->add_mean_to(given, eps) : given;
-  balance_.kept()->end(u_, eps, {source, s.exchange.coefficient, mean_velocity, stress}, s.step,
+  balance_.kept()->end(u_, eps, {source, s.exchange.coefficient}, mean_velocity, stress, s.step,
                        last_share);
 }
 
 void FluidSolver::Impl::set_void_fraction(const StepState& s, double share) {
-  void_fraction_.set(grid_, sides_, {s.before, s.after, s.is_clean}, share, properties_);
+  void_fraction_.set(grid_, sides_, s.before, s.after, share, s.is_clean, properties_);
 }
 
 bool FluidSolver::Impl::has_coefficient(const Exchange& exchange) const {

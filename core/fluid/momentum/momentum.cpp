@@ -55,9 +55,8 @@ void Momentum::find_flux(const FaceField& u, const CellField& eps) {
   });
 }
 
-void Momentum::convection_row(const FaceField& u, const CellField& eps, double smoothness,
-                              FaceRow row, double* out) const {
-  const auto [d, j, k] = row;
+void Momentum::convection_row(const FaceField& u, const CellField& eps, double smoothness, int d,
+                              int j, int k, double* out) const {
   const int n = geometry_.extent[d][0];
   const std::ptrdiff_t o = grid_.index(0, j, k);
   const std::array<int, 3> c = {0, j, k};
@@ -73,9 +72,9 @@ void Momentum::convection_row(const FaceField& u, const CellField& eps, double s
       first = is_begun ? out[0] : 0.0;
       last = is_begun ? out[n - 1] : 0.0;
     }
-    (is_begun ? convect_row : begin_convect_row)(
-        {n, grid_.stride[e], grid_.stride[d], 1.0 / grid_.spacing[e], smoothness},
-        &flux_.component[e][o], &u.component[d][o], out);
+    (is_begun ? convect_row : begin_convect_row)(n, grid_.stride[e], grid_.stride[d],
+                                                 1.0 / grid_.spacing[e], smoothness,
+                                                 &flux_.component[e][o], &u.component[d][o], out);
     is_begun = true;
   }
   if (!is_begun) std::fill_n(out, n, 0.0);
@@ -83,10 +82,10 @@ void Momentum::convection_row(const FaceField& u, const CellField& eps, double s
     out[0] = first;
     out[n - 1] = last;
   }
-  entering_row(u, row, out);
+  entering_row(u, d, j, k, out);
   divide_by_face_eps_row(n, grid_.stride[d], &eps[o], out);
-  open_side_row(u, row, out);
-  skew_row(u, eps, smoothness, row, out);
+  open_side_row(u, d, j, k, out);
+  skew_row(u, eps, smoothness, d, j, k, out);
 }
 
 bool Momentum::is_even(int d, int e) const {
@@ -100,16 +99,15 @@ double Momentum::neighbour_weight(double viscosity, int d, int e) const {
   return is_even(d, e) ? 0.0 : viscosity / (grid_.spacing[e] * grid_.spacing[e]);
 }
 
-void Momentum::skew_row(const FaceField& u, const CellField& eps, double smoothness, FaceRow row,
-                        double* out) const {
-  const auto [d, j, k] = row;
-  const std::size_t number = static_cast<std::size_t>(k) * geometry_.extent[d][1] + j;
-  for (int n = geometry_.skew_begin[d][number]; n < geometry_.skew_begin[d][number + 1]; ++n) {
+void Momentum::skew_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j,
+                        int k, double* out) const {
+  const std::size_t row = static_cast<std::size_t>(k) * geometry_.extent[d][1] + j;
+  for (int n = geometry_.skew_begin[d][row]; n < geometry_.skew_begin[d][row + 1]; ++n) {
     const SkewFace& face = geometry_.skew[d][n];
     const int e = face.along;
     double along = 0.0;
     if (!is_even(d, e)) {
-      convect_row({1, grid_.stride[e], grid_.stride[d], 1.0 / grid_.spacing[e], smoothness},
+      convect_row(1, grid_.stride[e], grid_.stride[d], 1.0 / grid_.spacing[e], smoothness,
                   &flux_.component[e][face.at], &u.component[d][face.at], &along);
       along /= 0.5 * (eps[face.at] + eps[face.at - grid_.stride[d]]);
     }
@@ -118,8 +116,7 @@ void Momentum::skew_row(const FaceField& u, const CellField& eps, double smoothn
   }
 }
 
-RowFlux Momentum::row_flux(FaceRow row) const {
-  const auto [d, j, k] = row;
+RowFlux Momentum::row_flux(int d, int j, int k) const {
   const std::ptrdiff_t o = grid_.index(0, j, k);
   RowFlux flux{};
   for (std::size_t e = 0; e < 3; ++e) {
@@ -134,8 +131,7 @@ RowFlux Momentum::row_flux(FaceRow row) const {
   return flux;
 }
 
-void Momentum::open_side_row(const FaceField& u, FaceRow row, double* out) const {
-  const auto [d, j, k] = row;
+void Momentum::open_side_row(const FaceField& u, int d, int j, int k, double* out) const {
   const auto& v = u.component[d];
   const std::array<int, 3> c = {0, j, k};
   for (int high = 0; high < 2; ++high) {
@@ -162,8 +158,7 @@ void Momentum::open_side_row(const FaceField& u, FaceRow row, double* out) const
   }
 }
 
-void Momentum::entering_row(const FaceField& u, FaceRow row, double* out) const {
-  const auto [d, j, k] = row;
+void Momentum::entering_row(const FaceField& u, int d, int j, int k, double* out) const {
   const std::array<int, 3> c = {0, j, k};
   for (int side = 0; side < 6; ++side) {
     const int e = side / 2;
@@ -183,8 +178,7 @@ void Momentum::entering_row(const FaceField& u, FaceRow row, double* out) const 
   }
 }
 
-Momentum::RowWeights Momentum::row_weights(FaceRow row) const {
-  const auto [d, j, k] = row;
+Momentum::RowWeights Momentum::row_weights(int d, int j, int k) const {
   RowWeights w{};
   const std::array<int, 3> c = {0, j, k};
   for (int e = 1; e < 3; ++e) {
@@ -232,16 +226,16 @@ void Momentum::prepare(double implicit, const FaceField& coefficient, bool has_d
     const auto& e = geometry_.extent[d];
     for_rows(e[0], e[1], e[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
-      const RowWeights w = row_weights({d, j, k});
+      const RowWeights w = row_weights(d, j, k);
       const double weights = 2.0 * ax + w.y_low + w.y_high + w.z_low + w.z_high;
       const RowProperty inertia = properties_.inertia(d, o);
       if (inertia.each == nullptr) {
-        inverse_row({e[0], implicit, nu * weights}, 1.0 / inertia.one, &coefficient.component[d][o],
+        inverse_row(e[0], implicit, nu * weights, 1.0 / inertia.one, &coefficient.component[d][o],
                     &geometry_.kind[d][o], &inverse_.component[d][o]);
       } else {
-        inverse_row_each(
-            {e[0], implicit, weights}, {inertia.each, properties_.viscosity(d, o).each},
-            &coefficient.component[d][o], &geometry_.kind[d][o], &inverse_.component[d][o]);
+        inverse_row_each(e[0], implicit, weights, inertia.each, properties_.viscosity(d, o).each,
+                         &coefficient.component[d][o], &geometry_.kind[d][o],
+                         &inverse_.component[d][o]);
       }
     });
     for (std::size_t n = 0; n < geometry_.cut[d].size(); ++n) {
@@ -290,22 +284,23 @@ void Momentum::sweep_row_and_cuts(const HalfSweep& s, int half, int j, int k) co
   const int d = s.d;
   const double a = s.a;
   const bool is_varying = properties_.is_varying();
+  const int n = geometry_.extent[d][0];
   const std::ptrdiff_t o = grid_.index(0, j, k);
   const std::ptrdiff_t sy = grid_.stride[1];
   const std::ptrdiff_t sz = grid_.stride[2];
   const int parity = (j + k + half) & 1;
-  const RowWeights w = row_weights({d, j, k});
-  const SweepRow faces{
-      geometry_.extent[d][0], sy,          sz,          parity, relaxation_, s.ax, a * w.y_low,
-      a * w.y_high,           a * w.z_low, a * w.z_high};
+  const RowWeights w = row_weights(d, j, k);
   const double* inverse = &inverse_.component[d][o];
   if (is_varying) {
-    sweep_row_each(faces, {properties_.inertia(d, o).each, properties_.viscosity(d, o).each},
+    sweep_row_each(n, sy, sz, parity, relaxation_, s.ax, a * w.y_low, a * w.y_high, a * w.z_low,
+                   a * w.z_high, properties_.inertia(d, o).each, properties_.viscosity(d, o).each,
                    s.right + o, inverse, s.u + o);
   } else if (w.y_low == 0.0 && w.y_high == 0.0) {
-    flat_sweep_row(faces, s.right + o, inverse, s.u + o);
+    flat_sweep_row(n, sz, parity, relaxation_, s.ax, a * w.z_low, a * w.z_high, s.right + o,
+                   inverse, s.u + o);
   } else {
-    sweep_row(faces, s.right + o, inverse, s.u + o);
+    sweep_row(n, sy, sz, parity, relaxation_, s.ax, a * w.y_low, a * w.y_high, a * w.z_low,
+              a * w.z_high, s.right + o, inverse, s.u + o);
   }
   const std::ptrdiff_t offset[6] = {-1, 1, -sy, sy, -sz, sz};
   const std::size_t row = static_cast<std::size_t>(k) * geometry_.extent[d][1] + j;
@@ -337,7 +332,7 @@ void Momentum::viscous_force(const FaceField& u, FaceField& out) const {
                          neighbour_weight(viscosity, d, 2)};
     for_rows(e[0], e[1], e[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
-      laplace_row({e[0], grid_.stride[1], grid_.stride[2], a[0], a[1], a[2]}, &v[o],
+      laplace_row(e[0], grid_.stride[1], grid_.stride[2], a[0], a[1], a[2], &v[o],
                   &geometry_.kind[d][o], &out.component[d][o]);
       if (properties_.is_varying()) {
         scale_row(e[0], properties_.viscosity(d, o).each, &out.component[d][o]);
@@ -401,12 +396,11 @@ Momentum::Rates Momentum::rates(const FaceField& u) {
     const std::ptrdiff_t o = grid_.index(0, j, k);
     thread_local std::vector<double> row;
     row.resize(3 * static_cast<std::size_t>(n[0]));
-    const RateColumns rates{row.data(), row.data() + n[0], row.data() + 2 * n[0]};
-    rate_row({n[0], grid_.stride[1], grid_.stride[2], inverse[0], inverse[1], inverse[2]},
-             {&geometry_.kind[0][o], &geometry_.kind[1][o], &geometry_.kind[2][o],
-              &u.component[0][o], &u.component[1][o], &u.component[2][o]},
-             rates);
-    const RowRates r = largest_of(n[0], rates);
+    double* c = row.data();
+    rate_row(n[0], grid_.stride[1], grid_.stride[2], inverse[0], inverse[1], inverse[2],
+             &geometry_.kind[0][o], &geometry_.kind[1][o], &geometry_.kind[2][o],
+             &u.component[0][o], &u.component[1][o], &u.component[2][o], c, c + n[0], c + 2 * n[0]);
+    const RowRates r = largest_of(n[0], c, c + n[0], c + 2 * n[0]);
     const double infinite = std::numeric_limits<double>::infinity();
     partial_speed_[static_cast<std::size_t>(k) * n[1] + j] = r.bad == 0.0 ? r.speed : infinite;
     return r.bad == 0.0 ? r.courant : infinite;

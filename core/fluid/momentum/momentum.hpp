@@ -11,11 +11,6 @@
 
 namespace dust::fluid {
 
-/// The faces of component `d` at (j, k), one after another along x.
-struct FaceRow {
-  int d, j, k;
-};
-
 /// Fluxes along a row of control volumes: through[e][i] belongs to the lower face of a cell in
 /// direction e, and a control volume has the mean of two cells, `across` apart. What flows out per
 /// volume [1/s] is the sum over e of per_length[e] times the difference along stride[e].
@@ -36,14 +31,14 @@ class Momentum {
   void geometry_changed();
   /// flux = mean void fraction x velocity, halos included; docs/theory/fluid.md, eq. (3).
   void find_flux(const FaceField& u, const CellField& eps);
-  /// out = u . grad u of a row (extent_x numbers), from the last find_flux.
+  /// out = u . grad u of component `d` at row (j, k) (extent_x numbers), from the last find_flux.
   /// `smoothness` [m2/s2]: squared steps of velocity below this are taken as smooth.
-  void convection_row(const FaceField& u, const CellField& eps, double smoothness, FaceRow row,
-                      double* out) const;
+  void convection_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j,
+                      int k, double* out) const;
 
   /// What flows through the control volumes of that row, from the last find_flux; meaningless on
   /// the sides themselves.
-  [[nodiscard]] RowFlux row_flux(FaceRow row) const;
+  [[nodiscard]] RowFlux row_flux(int d, int j, int k) const;
 
   /// Prepares (1 + implicit (coefficient - viscosity laplace) / inertia) for `solve`; implicit [s].
   /// `has_drag` = false: the coefficient is 0 everywhere.
@@ -69,7 +64,7 @@ class Momentum {
   struct RowWeights {
     double y_low, y_high, z_low, z_high;
   };
-  [[nodiscard]] RowWeights row_weights(FaceRow row) const;
+  [[nodiscard]] RowWeights row_weights(int d, int j, int k) const;
   /// A component of the system that is solved; a, ax: weights of the neighbours.
   struct HalfSweep {
     int d;
@@ -84,13 +79,13 @@ class Momentum {
   /// beyond the sides is not kept up to date.
   [[nodiscard]] double neighbour_weight(double viscosity, int d, int e) const;
   /// Puts convection along the surface in the place of that along the grid where SkewFace says so.
-  void skew_row(const FaceField& u, const CellField& eps, double smoothness, FaceRow row,
+  void skew_row(const FaceField& u, const CellField& eps, double smoothness, int d, int j, int k,
                 double* out) const;
   /// Convection of the normal component on open sides themselves.
-  void open_side_row(const FaceField& u, FaceRow row, double* out) const;
+  void open_side_row(const FaceField& u, int d, int j, int k, double* out) const;
   /// Adds what the fluid takes up that enters beside the row from rest, times the void fraction;
   /// docs/theory/fluid.md, section 4.
-  void entering_row(const FaceField& u, FaceRow row, double* out) const;
+  void entering_row(const FaceField& u, int d, int j, int k, double* out) const;
 
   const Grid& grid_;
   const Geometry& geometry_;

@@ -13,24 +13,9 @@
 namespace dust::fluid {
 namespace {
 
-/// A row of faces and the step that is made there.
-struct BalanceRow {
-  int n = 0;
-  std::ptrdiff_t s = 0;  ///< face i lies between the cells i - s and i
-  double density = 0.0;
-  bool is_whole = false;  ///< forces act on the whole volume, not on the fluid's share: set III
-  double step = 0.0;      ///< [s]
-};
-struct BeginColumns {
-  const double *eps, *u, *deferred, *source;
-};
-struct EndColumns {
-  const double *eps, *eps_before, *u, *source, *coefficient, *drag_velocity, *stress;
-};
-
-DUST_KERNEL void begin_row(BalanceRow row, BeginColumns at, double* excess, double* with_deferred) {
-  const auto [n, s, density, is_whole, step] = row;
-  const auto [eps, u, deferred, source] = at;
+DUST_KERNEL void begin_row(int n, std::ptrdiff_t s, double density, bool is_whole, double step,
+                           const double* eps, const double* u, const double* deferred,
+                           const double* source, double* excess, double* with_deferred) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double share = 0.5 * (eps[i] + eps[i - s]);
@@ -63,10 +48,10 @@ DUST_KERNEL void convection_row(int n, double mass, const RowFlux& flux, const d
   }
 }
 
-DUST_KERNEL void end_row(BalanceRow row, double last, EndColumns at, double* excess,
-                         double* deferred) {
-  const auto [n, s, density, is_whole, step] = row;
-  const auto [eps, before, u, source, coefficient, drag, stress] = at;
+DUST_KERNEL void end_row(int n, std::ptrdiff_t s, double density, bool is_whole, double step,
+                         double last, const double* eps, const double* before, const double* u,
+                         const double* source, const double* coefficient, const double* drag,
+                         const double* stress, double* excess, double* deferred) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double share = 0.5 * (eps[i] + eps[i - s]);
@@ -153,37 +138,30 @@ void MomentumBalance::begin(const FaceField& u, StepVoidFraction& void_fraction,
                             const FaceField& source, double step) {
   const CellField& eps = void_fraction.field();
   each_row([&](int d, int, int, std::ptrdiff_t o, int n) {
-    begin_row({n, grid_.stride[d], properties_.density(),
-               properties_.momentum_set() == MomentumSet::three, step},
-              {&eps[o], &u.component[d][o], &deferred_.component[d][o], &source.component[d][o]},
-              &excess_.component[d][o], &source_.component[d][o]);
+    begin_row(n, grid_.stride[d], properties_.density(),
+              properties_.momentum_set() == MomentumSet::three, step, &eps[o], &u.component[d][o],
+              &deferred_.component[d][o], &source.component[d][o], &excess_.component[d][o],
+              &source_.component[d][o]);
   });
   void_fraction.give_away(eps_before_);
 }
 
-void MomentumBalance::add_convection(FaceRow row, double time, const FaceField& u,
-                                     const CellField& eps, const double* convection,
+void MomentumBalance::add_convection(int d, std::ptrdiff_t o, double time, const double* u,
+                                     const double* eps, const double* convection,
                                      const RowFlux& flux) {
-  const auto [d, j, k] = row;
-  const std::ptrdiff_t o = grid_.index(0, j, k);
-  convection_row(geometry_.extent[d][0], time * properties_.density(), flux, &eps[o], convection,
-                 &u.component[d][o], &excess_.component[d][o]);
+  convection_row(geometry_.extent[d][0], time * properties_.density(), flux, eps, convection, u,
+                 &excess_.component[d][o]);
 }
 
-void MomentumBalance::end(const FaceField& u, const CellField& eps, const Acted& acted, double step,
+void MomentumBalance::end(const FaceField& u, const CellField& eps, const Acted& acted,
+                          const FaceField& drag_velocity, const FaceField& stress, double step,
                           double last) {
   each_row([&](int d, int j, int k, std::ptrdiff_t o, int n) {
-    end_row({n, grid_.stride[d], properties_.density(),
-             properties_.momentum_set() == MomentumSet::three, step},
-            last,
-            {.eps = &eps[o],
-             .eps_before = &eps_before_[o],
-             .u = &u.component[d][o],
-             .source = &acted.source.component[d][o],
-             .coefficient = &acted.coefficient.component[d][o],
-             .drag_velocity = &acted.drag_velocity.component[d][o],
-             .stress = &acted.stress.component[d][o]},
-            &excess_.component[d][o], &deferred_.component[d][o]);
+    end_row(n, grid_.stride[d], properties_.density(),
+            properties_.momentum_set() == MomentumSet::three, step, last, &eps[o], &eps_before_[o],
+            &u.component[d][o], &acted.source.component[d][o], &acted.coefficient.component[d][o],
+            &drag_velocity.component[d][o], &stress.component[d][o], &excess_.component[d][o],
+            &deferred_.component[d][o]);
     leave_out_bodies(d, j, k);
     leave_out_sides(d, j, k);
   });

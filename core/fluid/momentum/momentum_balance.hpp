@@ -27,19 +27,18 @@ class MomentumBalance {
   void begin(const FaceField& u, StepVoidFraction& void_fraction, const FaceField& source,
              double step);
   [[nodiscard]] const FaceField& source() const { return source_; }
-  /// A row's convection u . grad u and what flows through its control volumes, which acted for
-  /// `time` [s].
-  void add_convection(FaceRow row, double time, const FaceField& u, const CellField& eps,
+  /// A row of component d from padded index `o` on: its convection u . grad u and what flows
+  /// through its control volumes, which acted for `time` [s].
+  void add_convection(int d, std::ptrdiff_t o, double time, const double* u, const double* eps,
                       const double* convection, const RowFlux& flux);
   /// What acted on the fluid.
   struct Acted {
-    const FaceField& source;         ///< as begin() had it, and what was added since
-    const FaceField& coefficient;    ///< of drag
-    const FaceField& drag_velocity;  ///< that drag acted on
-    const FaceField& stress;
+    const FaceField& source;       ///< as begin() had it, and what was added since
+    const FaceField& coefficient;  ///< of drag
   };
   /// At the end; `last` the share of the step of its last part.
-  void end(const FaceField& u, const CellField& eps, const Acted& acted, double step, double last);
+  void end(const FaceField& u, const CellField& eps, const Acted& acted,
+           const FaceField& drag_velocity, const FaceField& stress, double step, double last);
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);

@@ -10,45 +10,12 @@
 #include <cstddef>
 
 /// Loops of the momentum equation over rows of faces: the inside of momentum.cpp, which alone
-/// includes this. Internal linkage, so that each kernel's versions stay next to its calls.
+/// includes this. Internal linkage, so that each kernel's versions stay next to its calls. Pointers
+/// and numbers one by one: gathered in a struct they cost a tenth of the fluid's step (GCC 12
+/// leaves parts of the loops scalar).
 // NOLINTBEGIN(misc-definitions-in-headers)
 namespace dust::fluid {
 namespace {
-
-/// A row of faces, and one number for each direction of its neighbours.
-struct AxisRow {
-  int n = 0;
-  std::ptrdiff_t sy = 0, sz = 0;  ///< to the neighbours along y and z
-  double x = 0.0, y = 0.0, z = 0.0;
-};
-/// A row of faces that a flux along one direction carries.
-struct ConvectedRow {
-  int n = 0;
-  std::ptrdiff_t s = 0;       ///< along the flux
-  std::ptrdiff_t across = 0;  ///< from one of a face's cells to the other
-  double inverse_h = 0.0;     ///< [1/m]
-  double smoothness = 0.0;    ///< see face_value
-};
-/// A row of the implicit solve, whose diagonal is 1 + implicit (drag + viscosity times sum).
-struct ImplicitRow {
-  int n = 0;
-  double implicit = 0.0;
-  double sum = 0.0;
-};
-/// 1 / inertia and viscosity at the faces of a fluid that varies.
-struct VaryingRow {
-  const double* inertia = nullptr;
-  const double* viscosity = nullptr;
-};
-/// Every other face of a row, from `parity` on, that a half sweep goes over.
-struct SweepRow {
-  int n = 0;
-  std::ptrdiff_t sy = 0, sz = 0;
-  int parity = 0;
-  double omega = 0.0;  ///< relaxation
-  double ax = 0.0;     ///< weight of either neighbour along x
-  double y_low = 0.0, y_high = 0.0, z_low = 0.0, z_high = 0.0;  ///< of the others
-};
 
 /// Value between cells with upstream neighbours: `up`, `at`, and `down` behind the face. Two slopes
 /// are blended (weights 1/3 upwind, 2/3 central in smooth flow: third order; the smoother one next
@@ -68,9 +35,10 @@ inline __attribute__((always_inline)) double face_value(double up, double at, do
 
 /// Adds to out, or begins it.
 template <bool adds>
-inline __attribute__((always_inline)) void convect(const ConvectedRow& row, const double* flux,
-                                                   const double* u, double* out) {
-  const auto [n, s, across, inverse_h, smoothness] = row;
+inline __attribute__((always_inline)) void convect(int n, std::ptrdiff_t s, std::ptrdiff_t across,
+                                                   double inverse_h, double smoothness,
+                                                   const double* flux, const double* u,
+                                                   double* out) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double high = 0.5 * (flux[i + s] + flux[i + s - across]);
@@ -90,12 +58,14 @@ inline __attribute__((always_inline)) void convect(const ConvectedRow& row, cons
     out[i] = before + inverse_h * (high * (at_high - c) - low * (at_low - c));
   }
 }
-DUST_KERNEL void convect_row(ConvectedRow row, const double* flux, const double* u, double* out) {
-  convect<true>(row, flux, u, out);
+DUST_KERNEL void convect_row(int n, std::ptrdiff_t s, std::ptrdiff_t across, double inverse_h,
+                             double smoothness, const double* flux, const double* u, double* out) {
+  convect<true>(n, s, across, inverse_h, smoothness, flux, u, out);
 }
-DUST_KERNEL void begin_convect_row(ConvectedRow row, const double* flux, const double* u,
+DUST_KERNEL void begin_convect_row(int n, std::ptrdiff_t s, std::ptrdiff_t across, double inverse_h,
+                                   double smoothness, const double* flux, const double* u,
                                    double* out) {
-  convect<false>(row, flux, u, out);
+  convect<false>(n, s, across, inverse_h, smoothness, flux, u, out);
 }
 
 DUST_KERNEL void divide_by_face_eps_row(int n, std::ptrdiff_t across, const double* eps,
@@ -110,10 +80,8 @@ DUST_KERNEL void flux_row(int n, std::ptrdiff_t across, const double* eps, const
   for (int i = 0; i < n; ++i) flux[i] = 0.5 * (eps[i] + eps[i - across]) * u[i];
 }
 
-/// `sum` in 1/s.
-DUST_KERNEL void inverse_row(ImplicitRow row, double inverse_density, const double* coefficient,
-                             const FaceKind* kind, double* inverse) {
-  const auto [n, implicit, sum] = row;
+DUST_KERNEL void inverse_row(int n, double implicit, double sum, double inverse_density,
+                             const double* coefficient, const FaceKind* kind, double* inverse) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double d = 1.0 / (1.0 + implicit * (coefficient[i] * inverse_density + sum));
@@ -122,10 +90,9 @@ DUST_KERNEL void inverse_row(ImplicitRow row, double inverse_density, const doub
 }
 
 /// The same with viscosity and 1 / inertia per face; `sum` in 1/m2.
-DUST_KERNEL void inverse_row_each(ImplicitRow row, VaryingRow fluid, const double* coefficient,
+DUST_KERNEL void inverse_row_each(int n, double implicit, double sum, const double* inertia,
+                                  const double* viscosity, const double* coefficient,
                                   const FaceKind* kind, double* inverse) {
-  const auto [n, implicit, sum] = row;
-  const auto [inertia, viscosity] = fluid;
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double d = 1.0 / (1.0 + implicit * inertia[i] * (coefficient[i] + viscosity[i] * sum));
@@ -164,8 +131,9 @@ inline __attribute__((always_inline)) void sweep(int n, int parity, double omega
   }
 }
 
-DUST_KERNEL void sweep_row(SweepRow row, const double* right, const double* inverse, double* u) {
-  const auto [n, sy, sz, parity, omega, ax, y_low, y_high, z_low, z_high] = row;
+DUST_KERNEL void sweep_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity, double omega,
+                           double ax, double y_low, double y_high, double z_low, double z_high,
+                           const double* right, const double* inverse, double* u) {
   sweep(n, parity, omega, inverse, u, [=](int i) {
     return right[i] + ax * (u[i - 1] + u[i + 1]) + y_low * u[i - sy] + y_high * u[i + sy] +
            z_low * u[i - sz] + z_high * u[i + sz];
@@ -173,19 +141,19 @@ DUST_KERNEL void sweep_row(SweepRow row, const double* right, const double* inve
 }
 
 /// The same where nothing varies along y.
-DUST_KERNEL void flat_sweep_row(SweepRow row, const double* right, const double* inverse,
-                                double* u) {
-  const auto [n, sy, sz, parity, omega, ax, y_low, y_high, z_low, z_high] = row;
+DUST_KERNEL void flat_sweep_row(int n, std::ptrdiff_t sz, int parity, double omega, double ax,
+                                double z_low, double z_high, const double* right,
+                                const double* inverse, double* u) {
   sweep(n, parity, omega, inverse, u, [=](int i) {
     return right[i] + ax * (u[i - 1] + u[i + 1]) + z_low * u[i - sz] + z_high * u[i + sz];
   });
 }
 
 /// The same with viscosity and 1 / inertia per face; weights in s/m2.
-DUST_KERNEL void sweep_row_each(SweepRow row, VaryingRow fluid, const double* right,
-                                const double* inverse, double* u) {
-  const auto [n, sy, sz, parity, omega, ax, y_low, y_high, z_low, z_high] = row;
-  const auto [inertia, viscosity] = fluid;
+DUST_KERNEL void sweep_row_each(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity,
+                                double omega, double ax, double y_low, double y_high, double z_low,
+                                double z_high, const double* inertia, const double* viscosity,
+                                const double* right, const double* inverse, double* u) {
   sweep(n, parity, omega, inverse, u, [=](int i) {
     const double around = ax * (u[i - 1] + u[i + 1]) + y_low * u[i - sy] + y_high * u[i + sy] +
                           z_low * u[i - sz] + z_high * u[i + sz];
@@ -198,9 +166,8 @@ DUST_KERNEL void scale_row(int n, const double* factor, double* values) {
   for (int i = 0; i < n; ++i) values[i] *= factor[i];
 }
 
-/// `row` has the weights of the neighbours.
-DUST_KERNEL void laplace_row(AxisRow row, const double* u, const FaceKind* kind, double* out) {
-  const auto [n, sy, sz, ax, ay, az] = row;
+DUST_KERNEL void laplace_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, double ax, double ay,
+                             double az, const double* u, const FaceKind* kind, double* out) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double l = ax * ((u[i - 1] - u[i]) + (u[i + 1] - u[i])) +
@@ -210,18 +177,6 @@ DUST_KERNEL void laplace_row(AxisRow row, const double* u, const FaceKind* kind,
   }
 }
 
-/// The three components at a row of faces: how each lies in the geometry, and its velocity.
-struct ComponentRows {
-  const FaceKind *ku = nullptr, *kv = nullptr, *kw = nullptr;
-  const double *u = nullptr, *v = nullptr, *w = nullptr;
-};
-/// By face: what Momentum::Rates are the largest of, and 0 unless a number is not finite.
-struct RateColumns {
-  double* courant = nullptr;
-  double* speed = nullptr;
-  double* bad = nullptr;
-};
-
 struct RowRates {
   double courant = 0.0;
   double speed = 0.0;
@@ -230,11 +185,10 @@ struct RowRates {
 
 // Ghost faces carry mirrored values that nothing is carried with: left out. A number that is not
 // finite makes its product with 0 differ from 0 and stays in the sum.
-// `row` has the inverse spacings.
-DUST_KERNEL void rate_row(AxisRow row, ComponentRows of, RateColumns rates) {
-  const auto [n, sy, sz, hx, hy, hz] = row;
-  const auto [ku, kv, kw, u, v, w] = of;
-  const auto [courant, speed, bad] = rates;
+DUST_KERNEL void rate_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, double hx, double hy,
+                          double hz, const FaceKind* ku, const FaceKind* kv, const FaceKind* kw,
+                          const double* u, const double* v, const double* w, double* courant,
+                          double* speed, double* bad) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const double u0 = ku[i] == FaceKind::inside ? 0.0 : std::abs(u[i]);
@@ -253,8 +207,7 @@ DUST_KERNEL void rate_row(AxisRow row, ComponentRows of, RateColumns rates) {
   }
 }
 
-RowRates largest_of(int n, const RateColumns& rates) {
-  const auto [courant, speed, bad] = rates;
+RowRates largest_of(int n, const double* courant, const double* speed, const double* bad) {
   double c[4] = {};
   double s[4] = {};
   double b[4] = {};

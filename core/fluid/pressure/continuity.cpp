@@ -58,12 +58,7 @@ FaceField Continuity::find_pattern() const {
 }
 
 std::vector<std::int64_t> Continuity::open_cells() const {
-  const std::vector<char> cells = open_now();
-  return {cells.begin(), cells.end()};
-}
-
-std::vector<char> Continuity::open_now() const {
-  std::vector<char> cells(grid_.size);
+  std::vector<std::int64_t> cells(grid_.size);
   for (std::size_t o = 0; o < grid_.size; ++o) {
     cells[o] = solver_->is_open(static_cast<std::ptrdiff_t>(o)) ? 1 : 0;
   }
@@ -75,7 +70,12 @@ void Continuity::was_open(const std::vector<std::int64_t>& cells) {
 }
 
 void Continuity::geometry_changed(CellField& pressure) {
-  if (was_open_.empty()) was_open_ = open_now();
+  if (was_open_.empty()) {
+    was_open_.resize(grid_.size);
+    for (std::size_t o = 0; o < grid_.size; ++o) {
+      was_open_[o] = solver_->is_open(static_cast<std::ptrdiff_t>(o)) ? 1 : 0;
+    }
+  }
   FaceField pattern = find_pattern();
   bool is_same = true;
   for (int d = 0; d < 3 && is_same; ++d) {
@@ -86,12 +86,6 @@ void Continuity::geometry_changed(CellField& pressure) {
   pattern_ = std::move(pattern);
   is_plain_ = false;
   if (!is_same) solver_ = std::make_unique<PressureSolver>(grid_, pattern_);
-  fill_opened_cells(pressure);
-  was_open_ = open_now();
-}
-
-/// A cell that has opened takes the mean pressure of its neighbours that were open before.
-void Continuity::fill_opened_cells(CellField& pressure) const {
   const auto& n = grid_.count;
   for (int k = 0; k < n[2]; ++k) {
     for (int j = 0; j < n[1]; ++j) {
@@ -114,6 +108,9 @@ void Continuity::fill_opened_cells(CellField& pressure) const {
         if (count > 0) pressure[o] = sum / count;
       }
     }
+  }
+  for (std::size_t o = 0; o < grid_.size; ++o) {
+    was_open_[o] = solver_->is_open(static_cast<std::ptrdiff_t>(o)) ? 1 : 0;
   }
 }
 
@@ -141,7 +138,7 @@ void Continuity::find_divergence(const FaceField& v, const CellField& eps) {
       if (grid_.count[d] == 1 && sides_.kinds().is_periodic[d]) continue;
       if (sides_.is_still(d)) continue;
       flux_difference_row(grid_.count[0], grid_.stride[d], 1.0 / grid_.spacing[d],
-                          {&geometry_.open_area.component[d][o], &eps[o]}, &v.component[d][o],
+                          &geometry_.open_area.component[d][o], &eps[o], &v.component[d][o],
                           &residual_[o]);
     }
   });
@@ -190,8 +187,8 @@ void Continuity::prepare(const CellField& eps, double step, const FaceField& dra
     const double h2 = 1.0 / (grid_.spacing[d] * grid_.spacing[d]);
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
-      coefficient_row({n[0], grid_.stride[d], step, properties_.inertia(d, o)}, h2,
-                      {&pattern_.component[d][o], &eps[o]}, &drag.component[d][o],
+      coefficient_row(n[0], grid_.stride[d], step, properties_.inertia(d, o), h2,
+                      &pattern_.component[d][o], &eps[o], &drag.component[d][o],
                       &k_field.component[d][o]);
     });
     if (sides_.kinds().is_periodic[d]) {
@@ -240,9 +237,9 @@ int Continuity::project(FaceField& v, const CellField& eps, double step, const F
     const auto& n = geometry_.extent[d];
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
-      correct_row({n[0], grid_.stride[d], step, properties_.inertia(d, o)},
-                  {&increment_[o], 1.0 / grid_.spacing[d]},
-                  {&k_field.component[d][o], &drag.component[d][o]}, &v.component[d][o]);
+      correct_row(n[0], grid_.stride[d], step, properties_.inertia(d, o), 1.0 / grid_.spacing[d],
+                  &k_field.component[d][o], &drag.component[d][o], &increment_[o],
+                  &v.component[d][o]);
     });
   }
   momentum_.extend(v, Momentum::Ghosts::uncrossed);

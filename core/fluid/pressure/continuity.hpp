@@ -70,9 +70,6 @@ class Continuity {
     std::vector<Sink> sinks;  ///< into bodies
     CellField moved;          ///< [1/s] d(theta)/dt, by bodies that move
   };
-  /// By cell: 1 where it is open, 0 elsewhere.
-  [[nodiscard]] std::vector<char> open_now() const;
-  void fill_opened_cells(CellField& pressure) const;
   [[nodiscard]] FaceField find_pattern() const;
   void find_open_parts(const FaceField& v);
   void find_divergence(const FaceField& v, const CellField& eps);

@@ -23,24 +23,9 @@ constexpr double k_same_spacing = 1.5;
 /// those that its neighbours read, the loop would have to go number by number.
 constexpr int k_block = 512;
 
-/// A row of cells and the coefficients of its lower faces.
-struct LevelRow {
-  int n = 0;
-  std::ptrdiff_t sy = 0, sz = 0;  ///< to the neighbours along y and z
-  const float *ax = nullptr, *ay = nullptr, *az = nullptr;
-
-  LevelRow(const MultigridLevel& level, std::ptrdiff_t o)
-      : n(level.count[0]),
-        sy(level.stride[1]),
-        sz(level.stride[2]),
-        ax(&level.face[0][o]),
-        ay(&level.face[1][o]),
-        az(&level.face[2][o]) {}
-};
-
-DUST_KERNEL void smooth_row(LevelRow row, int parity, bool has_y, const float* inverse,
+DUST_KERNEL void smooth_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, int parity, bool has_y,
+                            const float* ax, const float* ay, const float* az, const float* inverse,
                             const float* b, float* x) {
-  const auto [n, sy, sz, ax, ay, az] = row;
   if constexpr (k_visits_one_colour) {
     for (int i = parity; i < n; i += 2) {
       float sum = b[i] + ax[i] * x[i - 1] + ax[i + 1] * x[i + 1];
@@ -80,9 +65,8 @@ DUST_KERNEL void smooth_zero_row(int n, int parity, const float* inverse, const 
   for (int i = 0; i < n; ++i) x[i] = ((i + parity) & 1) ? 0.0F : b[i] * inverse[i];
 }
 
-DUST_KERNEL void flat_residual_row(LevelRow row, const float* mask, const float* b, const float* x,
-                                   float* r) {
-  const auto [n, sy, sz, ax, ay, az] = row;
+DUST_KERNEL void flat_residual_row(int n, std::ptrdiff_t sz, const float* ax, const float* az,
+                                   const float* mask, const float* b, const float* x, float* r) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     r[i] = mask[i] * (b[i] + ax[i] * (x[i - 1] - x[i]) + ax[i + 1] * (x[i + 1] - x[i]) +
@@ -90,9 +74,9 @@ DUST_KERNEL void flat_residual_row(LevelRow row, const float* mask, const float*
   }
 }
 
-DUST_KERNEL void residual_row(LevelRow row, const float* mask, const float* b, const float* x,
-                              float* r) {
-  const auto [n, sy, sz, ax, ay, az] = row;
+DUST_KERNEL void residual_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, const float* ax,
+                              const float* ay, const float* az, const float* mask, const float* b,
+                              const float* x, float* r) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     r[i] = mask[i] * (b[i] + ax[i] * (x[i - 1] - x[i]) + ax[i + 1] * (x[i + 1] - x[i]) +
@@ -116,8 +100,8 @@ DUST_KERNEL void prolong_row(int n, int factor, const float* mask, const float* 
   }
 }
 
-DUST_KERNEL void invert_row(LevelRow row, float* inverse) {
-  const auto [n, sy, sz, ax, ay, az] = row;
+DUST_KERNEL void invert_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, const float* ax,
+                            const float* ay, const float* az, float* inverse) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     const float d = ax[i] + ax[i + 1] + ay[i] + ay[i + sy] + az[i] + az[i + sz];
@@ -286,7 +270,8 @@ void Multigrid::coarsen_faces(const MultigridLevel& fine, MultigridLevel& coarse
 void Multigrid::invert_diagonal(MultigridLevel& l) {
   for_rows(l.count[0], l.count[1], l.count[2], [&](int j, int k) {
     const std::ptrdiff_t o = index_of(l, 0, j, k);
-    invert_row({l, o}, &l.inverse_diagonal[o]);
+    invert_row(l.count[0], l.stride[1], l.stride[2], &l.face[0][o], &l.face[1][o], &l.face[2][o],
+               &l.inverse_diagonal[o]);
   });
 }
 
@@ -298,7 +283,8 @@ void Multigrid::smooth(MultigridLevel& l, int colour, bool from_zero) const {
     if (from_zero) {
       smooth_zero_row(l.count[0], parity, &l.inverse_diagonal[o], &l.b[o], &l.x[o]);
     } else {
-      smooth_row({l, o}, parity, has_y, &l.inverse_diagonal[o], &l.b[o], &l.x[o]);
+      smooth_row(l.count[0], l.stride[1], l.stride[2], parity, has_y, &l.face[0][o], &l.face[1][o],
+                 &l.face[2][o], &l.inverse_diagonal[o], &l.b[o], &l.x[o]);
     }
   });
   wrap(l, l.x);
@@ -316,9 +302,11 @@ void Multigrid::restrict_residual(std::size_t level) {
       for (int y = j * f.factor[1]; y < std::min((j + 1) * f.factor[1], f.count[1]); ++y) {
         const std::ptrdiff_t o = index_of(f, 0, y, z);
         if (f.is_flat) {
-          flat_residual_row({f, o}, &f.mask[o], &f.b[o], &f.x[o], row.data());
+          flat_residual_row(f.count[0], f.stride[2], &f.face[0][o], &f.face[2][o], &f.mask[o],
+                            &f.b[o], &f.x[o], row.data());
         } else {
-          residual_row({f, o}, &f.mask[o], &f.b[o], &f.x[o], row.data());
+          residual_row(f.count[0], f.stride[1], f.stride[2], &f.face[0][o], &f.face[1][o],
+                       &f.face[2][o], &f.mask[o], &f.b[o], &f.x[o], row.data());
         }
         if (f.factor[0] == 2) {
           add_pairs_row(c.count[0], row.data(), b);

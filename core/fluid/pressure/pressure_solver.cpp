@@ -46,15 +46,8 @@ DUST_KERNEL void direction_row(int n, double beta, const float* z, double* p) {
   for (int i = 0; i < n; ++i) p[i] = static_cast<double>(z[i]) + beta * p[i];
 }
 
-/// A row of cells and the coefficients of its lower faces.
-struct EquationRow {
-  int n = 0;
-  std::ptrdiff_t sy = 0, sz = 0;  ///< to the neighbours along y and z
-  const double *ax = nullptr, *ay = nullptr, *az = nullptr;
-};
-
-DUST_KERNEL double apply_row(EquationRow row, const double* x, double* y) {
-  const auto [n, sy, sz, ax, ay, az] = row;
+DUST_KERNEL double apply_row(int n, std::ptrdiff_t sy, std::ptrdiff_t sz, const double* ax,
+                             const double* ay, const double* az, const double* x, double* y) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     y[i] = ax[i] * (x[i] - x[i - 1]) + ax[i + 1] * (x[i] - x[i + 1]) + ay[i] * (x[i] - x[i - sy]) +
@@ -64,8 +57,8 @@ DUST_KERNEL double apply_row(EquationRow row, const double* x, double* y) {
   return lane_sum(n, [=](int i) { return x[i] * y[i]; });
 }
 
-DUST_KERNEL double flat_apply_row(EquationRow row, const double* x, double* y) {
-  const auto [n, sy, sz, ax, ay, az] = row;
+DUST_KERNEL double flat_apply_row(int n, std::ptrdiff_t sz, const double* ax, const double* az,
+                                  const double* x, double* y) {
 #pragma GCC ivdep
   for (int i = 0; i < n; ++i) {
     y[i] = ax[i] * (x[i] - x[i - 1]) + ax[i + 1] * (x[i] - x[i + 1]) + az[i] * (x[i] - x[i - sz]) +
@@ -257,15 +250,15 @@ void PressureSolver::precondition(const CellField& r, double scale) {
 /// image_ = the equation's left side for the direction p; returns their product.
 double PressureSolver::apply(const CellField& p) {
   const auto& n = grid_.count;
+  const std::ptrdiff_t sy = grid_.stride[1];
+  const std::ptrdiff_t sz = grid_.stride[2];
   return sum_rows(n[0], n[1], n[2], partial_, [&](int j, int k) {
     const std::ptrdiff_t o = grid_.index(0, j, k);
-    const EquationRow row{n[0],
-                          grid_.stride[1],
-                          grid_.stride[2],
-                          &k_.component[0][o],
-                          &k_.component[1][o],
-                          &k_.component[2][o]};
-    return (is_flat_ ? flat_apply_row : apply_row)(row, &p[o], &image_[o]);
+    if (is_flat_) {
+      return flat_apply_row(n[0], sz, &k_.component[0][o], &k_.component[2][o], &p[o], &image_[o]);
+    }
+    return apply_row(n[0], sy, sz, &k_.component[0][o], &k_.component[1][o], &k_.component[2][o],
+                     &p[o], &image_[o]);
   });
 }
 

@@ -36,10 +36,9 @@ void DragVelocity::add_pressure(const Geometry& geometry, const Continuity& cont
     const auto& n = geometry.extent[d];
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
-      pressure_drag_row({n[0], grid_.stride[d], step, properties.inertia(d, o)},
-                        {&phi[o], 1.0 / grid_.spacing[d]},
-                        {&k_field.component[d][o], &drag.component[d][o]}, share,
-                        &sum_.component[d][o]);
+      pressure_drag_row(n[0], grid_.stride[d], step, properties.inertia(d, o),
+                        1.0 / grid_.spacing[d], share, &k_field.component[d][o],
+                        &drag.component[d][o], &phi[o], &sum_.component[d][o]);
     });
   }
 }

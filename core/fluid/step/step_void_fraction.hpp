@@ -14,21 +14,15 @@ class StepVoidFraction {
   explicit StepVoidFraction(const Grid& grid) : eps_(grid.size, 1.0) {}
 
   [[nodiscard]] const CellField& field() const { return eps_; }
-  /// At both ends of a step.
-  struct Ends {
-    const CellField& before;
-    const CellField& after;
-    bool is_clean = false;  ///< 1 in all cells of both
-  };
-  /// At the `share` [-] of the step.
-  void set(const Grid& grid, const Sides& sides, const Ends& ends, double share,
-           FaceProperties& properties) {
-    if (ends.is_clean && is_one_) return;
-    is_one_ = ends.is_clean;
+  /// At the `share` [-] of the step. `is_clean`: it is 1 in all cells at both ends.
+  void set(const Grid& grid, const Sides& sides, const CellField& before, const CellField& after,
+           double share, bool is_clean, FaceProperties& properties) {
+    if (is_clean && is_one_) return;
+    is_one_ = is_clean;
     for_rows(grid.count[0], grid.count[1], grid.count[2], [&](int j, int k) {
       const std::ptrdiff_t o = grid.index(0, j, k);
       for (int i = 0; i < grid.count[0]; ++i) {
-        eps_[o + i] = (1.0 - share) * ends.before[o + i] + share * ends.after[o + i];
+        eps_[o + i] = (1.0 - share) * before[o + i] + share * after[o + i];
       }
     });
     sides.fill_cells(eps_);

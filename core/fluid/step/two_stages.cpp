@@ -40,9 +40,9 @@ void TwoStages::advance(const SubStep& part, const CellField& eps, bool fills_ha
   sides_.evaluate_pressure(part.time + 0.5 * step);
   sides_.fill_pressure(pressure, false);
   each_moving_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
-    first_stage_row({n, grid_.stride[d], step, properties_.inertia(d, o)},
-                    {{&pressure[o], inverse_h}, &part.source.component[d][o]}, &u.component[d][o],
-                    &sum_.component[d][o], &right_.component[d][o]);
+    first_stage_row(n, grid_.stride[d], step, properties_.inertia(d, o), inverse_h,
+                    &u.component[d][o], &sum_.component[d][o], &pressure[o],
+                    &part.source.component[d][o], &right_.component[d][o]);
     std::copy_n(&u.component[d][o], n, &next_.component[d][o]);
   });
   sides_.evaluate_velocity(part.time + k_gamma * step, eps);
@@ -51,10 +51,9 @@ void TwoStages::advance(const SubStep& part, const CellField& eps, bool fills_ha
     part.drag_velocity->add_stage(geometry_, next_, (1.0 - k_gamma) * part.share);
   }
   each_moving_row([&](int d, std::ptrdiff_t o, int n, double inverse_h) {
-    between_stages_row({n, grid_.stride[d], step, properties_.inertia(d, o)},
-                       {{&pressure[o], inverse_h}, &part.source.component[d][o]},
-                       {&u.component[d][o], &next_.component[d][o], &right_.component[d][o]},
-                       &sum_.component[d][o]);
+    between_stages_row(n, grid_.stride[d], step, properties_.inertia(d, o), inverse_h,
+                       &u.component[d][o], &next_.component[d][o], &right_.component[d][o],
+                       &pressure[o], &part.source.component[d][o], &sum_.component[d][o]);
   });
   convect_second(part, eps);
   sides_.evaluate_velocity(part.time + step, eps);
@@ -73,8 +72,8 @@ void TwoStages::convect_first(const SubStep& part, const FaceField& u, const Cel
     const auto& n = geometry_.extent[d];
     for_rows(n[0], n[1], n[2], [&](int j, int k) {
       double* sum = &sum_.component[d][grid_.index(0, j, k)];
-      momentum_.convection_row(u, eps, part.smoothness, {d, j, k}, sum);
-      balance_row(part, u, eps, {d, j, k}, sum, k_delta * part.step);
+      momentum_.convection_row(u, eps, part.smoothness, d, j, k, sum);
+      balance_row(part, u, eps, d, j, k, sum, k_delta * part.step);
     });
   }
 }
@@ -89,18 +88,20 @@ void TwoStages::convect_second(const SubStep& part, const CellField& eps) {
       const std::ptrdiff_t o = grid_.index(0, j, k);
       thread_local std::vector<double> row;
       row.resize(static_cast<std::size_t>(n[0]));
-      momentum_.convection_row(next_, eps, part.smoothness, {d, j, k}, row.data());
-      balance_row(part, next_, eps, {d, j, k}, row.data(), (1.0 - k_delta) * part.step);
+      momentum_.convection_row(next_, eps, part.smoothness, d, j, k, row.data());
+      balance_row(part, next_, eps, d, j, k, row.data(), (1.0 - k_delta) * part.step);
       second_stage_row(n[0], part.step, &sum_.component[d][o], row.data(), &right_.component[d][o]);
     });
   }
 }
 
 /// Adds a row's convection, which acted for `time` [s], to the balance.
-void TwoStages::balance_row(const SubStep& part, const FaceField& v, const CellField& eps,
-                            FaceRow row, const double* convection, double time) const {
+void TwoStages::balance_row(const SubStep& part, const FaceField& v, const CellField& eps, int d,
+                            int j, int k, const double* row, double time) const {
   if (part.balance == nullptr) return;
-  part.balance->add_convection(row, time, v, eps, convection, momentum_.row_flux(row));
+  const std::ptrdiff_t o = grid_.index(0, j, k);
+  part.balance->add_convection(d, o, time, &v.component[d][o], &eps[o], row,
+                               momentum_.row_flux(d, j, k));
 }
 
 /// Solves for the next stage with the sides' present values and completes it.

@@ -54,8 +54,8 @@ class TwoStages {
   void each_moving_row(const Body& body) const;
   void convect_first(const SubStep& part, const FaceField& u, const CellField& eps);
   void convect_second(const SubStep& part, const CellField& eps);
-  void balance_row(const SubStep& part, const FaceField& v, const CellField& eps, FaceRow row,
-                   const double* convection, double time) const;
+  void balance_row(const SubStep& part, const FaceField& v, const CellField& eps, int d, int j,
+                   int k, const double* row, double time) const;
   void solve(bool fills_halos);
 
   const Grid& grid_;

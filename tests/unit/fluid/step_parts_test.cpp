@@ -72,17 +72,17 @@ TEST_CASE("the void fraction within a step shall lie on the line between its end
   fluid::CellField after(parts.grid.size, 0.9);
   fluid::StepVoidFraction eps(parts.grid);
   CHECK(eps.field()[parts.grid.index(1, 1, 1)] == 1.0);
-  eps.set(parts.grid, sides, {before, after, false}, 0.25, properties);
+  eps.set(parts.grid, sides, before, after, 0.25, false, properties);
   CHECK(eps.field()[parts.grid.index(1, 1, 1)] == test::approx(0.6).epsilon(1e-15));
   CHECK(eps.field()[parts.grid.index(-1, 1, 1)] == test::approx(0.6).epsilon(1e-15));
   // Where no solids are, 1; and nothing is read again as long as that holds.
   const fluid::CellField ones(parts.grid.size, 1.0);
-  eps.set(parts.grid, sides, {ones, ones, true}, 0.25, properties);
+  eps.set(parts.grid, sides, ones, ones, 0.25, true, properties);
   CHECK(eps.field()[parts.grid.index(3, 2, 4)] == 1.0);
   after.assign(after.size(), -1.0);
-  eps.set(parts.grid, sides, {after, after, true}, 0.5, properties);
+  eps.set(parts.grid, sides, after, after, 0.5, true, properties);
   CHECK(eps.field()[parts.grid.index(3, 2, 4)] == 1.0);
-  eps.set(parts.grid, sides, {before, before, false}, 1.0, properties);
+  eps.set(parts.grid, sides, before, before, 1.0, false, properties);
   CHECK(eps.field()[parts.grid.index(3, 2, 4)] == 0.5);
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("in set III the inertia of the fluid shall follow the void fraction") 
     parts.spec.momentum_set = set;
     fluid::FaceProperties properties(parts.grid, parts.spec);
     fluid::StepVoidFraction eps(parts.grid);
-    eps.set(parts.grid, sides, {half, half, false}, 0.0, properties);
+    eps.set(parts.grid, sides, half, half, 0.0, false, properties);
     const double inertia = parts.spec.momentum_set == "III" ? 1.0 : 2.0;
     CHECK(properties.inverse_inertia_at(0, face) == test::approx(1.0 / inertia).epsilon(1e-15));
   }
