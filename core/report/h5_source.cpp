@@ -72,22 +72,13 @@ H5Source::~H5Source() {
 }
 
 std::vector<std::string> H5Source::frames(const std::string& group) const {
-  if (!is_open()) return {};
-  const Handle node(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
-  H5G_info_t info{};
-  if (node < 0 || H5Gget_info(node, &info) < 0) return {};
-  std::vector<std::string> names;
-  for (hsize_t k = 0; k < info.nlinks; ++k) {
-    char name[64];
-    const auto length = H5Lget_name_by_idx(node, ".", H5_INDEX_NAME, H5_ITER_INC, k, name,
-                                           sizeof name, H5P_DEFAULT);
-    if (length <= 0 || length >= static_cast<ssize_t>(sizeof name)) continue;
-    const std::string text(name);
-    if (!std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; }))
-      continue;
-    const Handle frame(H5Gopen2(node, name, H5P_DEFAULT), H5Gclose);
-    if (frame >= 0) names.push_back(text);
-  }
+  std::vector<std::string> names = members(group);
+  std::erase_if(names, [&](const std::string& name) {
+    const bool is_number =
+        std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+    return !is_number ||
+           Handle(H5Gopen2(file_, (group + "/" + name).c_str(), H5P_DEFAULT), H5Gclose) < 0;
+  });
   std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
     return a.size() != b.size() ? a.size() < b.size() : a < b;
   });

@@ -11,8 +11,7 @@
 
 /// Loops of the momentum equation over rows of faces: the inside of momentum.cpp, which alone
 /// includes this. Internal linkage, so that each kernel's versions stay next to its calls. Pointers
-/// and numbers one by one: gathered in a struct they cost a tenth of the fluid's step (GCC 12
-/// leaves parts of the loops scalar).
+/// and numbers one by one: gathered in structs GCC 12 leaves parts of the loops scalar.
 // NOLINTBEGIN(misc-definitions-in-headers)
 namespace dust::fluid {
 namespace {

@@ -2,12 +2,10 @@
 #include "preflight/places/belt_check.hpp"
 
 #include "base/text.hpp"
-#include "bodies/shape.hpp"
+#include "preflight/places/shape_parameter.hpp"
 
 #include <cstddef>
 #include <string>
-#include <string_view>
-#include <variant>
 
 namespace dust::preflight {
 namespace {
@@ -20,17 +18,6 @@ constexpr double k_right_above = 20.0;
 constexpr double k_against = 0.5;
 /// [-] Of a velocity: a smaller level part is none.
 constexpr double k_level = 1e-6;
-
-/// A parameter of a body's shape by its name; null without one.
-const Vec3* vector_of(const scenario::ModelChoice& shape, std::string_view name) {
-  for (const bodies::ShapeKind& kind : bodies::shape_catalogue()) {
-    if (kind.name != shape.name) continue;
-    for (std::size_t n = 0; n < kind.parameters.size() && n < shape.values.size(); ++n) {
-      if (kind.parameters[n].name == name) return std::get_if<Vec3>(&shape.values[n]);
-    }
-  }
-  return nullptr;
-}
 
 /// [m/s] of the belt's top towards its head at the end of the run.
 double speed_to_head(const scenario::Setup& setup, const bodies::Body& body, Vec3 head, Vec3 tail) {
@@ -52,10 +39,10 @@ void check_belts(const scenario::Setup& setup, const ParticleModels& models,
   for (std::size_t n = 0; n < setup.bodies.size(); ++n) {
     const scenario::BodySpec& spec = setup.bodies[n];
     if (spec.motions.size() != 1 || models.bodies[n].displaces()) continue;
-    const Vec3* head = vector_of(spec.shape, "head");
-    const Vec3* tail = vector_of(spec.shape, "tail");
+    const Vec3* head = shape_parameter<Vec3>(spec.shape, "head");
+    const Vec3* tail = shape_parameter<Vec3>(spec.shape, "tail");
     if (head == nullptr || tail == nullptr) continue;
-    const Vec3* up = vector_of(spec.shape, "up");
+    const Vec3* up = shape_parameter<Vec3>(spec.shape, "up");
     if (up != nullptr &&
         dot(models.bodies[n].placement(setup.time.end).turn(*up), setup.gravity) > 0.0) {
       // Told once: with it every belt seems to run backwards.
@@ -87,7 +74,7 @@ void check_feeds_on_belts(const scenario::Setup& setup, const ParticleModels& mo
     const sdk::InsertionRequest& grain = first[e].front();
     for (std::size_t n = 0; n < setup.bodies.size(); ++n) {
       const bodies::Body& body = models.bodies[n];
-      const bool is_belt = vector_of(setup.bodies[n].shape, "head") != nullptr;
+      const bool is_belt = shape_parameter<Vec3>(setup.bodies[n].shape, "head") != nullptr;
       if (!is_belt || body.motions.size() != 1 || body.displaces()) continue;
       const bodies::SurfacePoint below = body.nearest(grain.position);
       if (!(below.distance < k_right_above * grain.diameter)) continue;

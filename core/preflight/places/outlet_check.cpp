@@ -2,13 +2,13 @@
 #include "preflight/places/outlet_check.hpp"
 
 #include "base/text.hpp"
-#include "bodies/shape.hpp"
+#include "preflight/places/shape_parameter.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <variant>
+#include <string_view>
 #include <vector>
 
 namespace dust::preflight {
@@ -30,27 +30,21 @@ struct Outlet {
   bool is_two_way = false;
 };
 
-/// The parameter of a body's shape; its type's zero where there is none.
-template <class T>
-T value_of(const scenario::ModelChoice& shape, const char* name) {
-  for (const bodies::ShapeKind& kind : bodies::shape_catalogue()) {
-    if (kind.name != shape.name) continue;
-    for (std::size_t n = 0; n < kind.parameters.size() && n < shape.values.size(); ++n) {
-      if (kind.parameters[n].name != name) continue;
-      if (const T* value = std::get_if<T>(&shape.values[n])) return *value;
-    }
-  }
-  return T{};
+/// Zero where there is none.
+double length_of(const scenario::ModelChoice& shape, std::string_view name) {
+  const auto* length = shape_parameter<double>(shape, name);
+  return length != nullptr ? *length : 0.0;
 }
 
 Outlet outlet_of(const scenario::ModelChoice& shape) {
-  const Vec3 axis = value_of<Vec3>(shape, "axis");
+  const auto* given = shape_parameter<Vec3>(shape, "axis");
+  const Vec3 axis = given != nullptr ? *given : Vec3{};
   if (shape.name == "disc") {
-    return {"its hole", 2.0 * value_of<double>(shape, "hole_radius"), axis, true};
+    return {"its hole", 2.0 * length_of(shape, "hole_radius"), axis, true};
   }
-  if (shape.name != "frustum" || !(value_of<double>(shape, "thickness") > 0.0)) return {};
-  const double first = value_of<double>(shape, "radius");
-  const double last = value_of<double>(shape, "end_radius");
+  if (shape.name != "frustum" || !(length_of(shape, "thickness") > 0.0)) return {};
+  const double first = length_of(shape, "radius");
+  const double last = length_of(shape, "end_radius");
   return {"its narrow end", 2.0 * std::min(first, last), first < last ? -1.0 * axis : axis};
 }
 
@@ -91,12 +85,12 @@ LargestGrains largest_grains(const ParticleModels& models) {
 
 /// Of an outlet that grains of this diameter [m] do not pass: a sphere has one contact with a round
 /// wall, where it is nearest.
-std::string blocked_text(double width, double diameter) {
+std::string blocked_text(double diameter) {
   return "is narrower than the largest grains (" + base::length_text(diameter, 3) +
          "): they block it, and one that lies on its rim touches it where it is nearest alone, "
          "which jumps from side to side, so that energy comes out of nothing and it may be thrown "
          "out; make it at least " +
-         base::length_text(std::max(width, 5.0 * diameter), 3) +
+         base::length_text(5.0 * diameter, 3) +
          ", if they are to flow, or draw the part as a mesh of 24 flat faces round";
 }
 
@@ -111,7 +105,7 @@ void check_outlets(const scenario::Setup& setup, const ParticleModels& models,
     const std::string what = "bodies." + body.name + ": " + outlet.what + " of " +
                              base::length_text(outlet.width, 3) + " ";
     if (outlet.width < largest.all) {
-      diagnostics.warning(body.shape.where, what + blocked_text(outlet.width, largest.all));
+      diagnostics.warning(body.shape.where, what + blocked_text(largest.all));
     } else if (outlet.width < k_arching * largest.many && looks_down(setup, body, outlet)) {
       diagnostics.warning(
           body.shape.where,

@@ -23,11 +23,10 @@ constexpr double k_max_scatter = 0.7;   // 2
 constexpr double k_likely_length = -0.2;
 constexpr double k_length_spread = 1.1;
 
-/// Steps of the chain, and how many of its places are kept. A chain ten times as long moves means
-/// by a tenth of their errors.
+/// Steps of the chain, and how many of its places are kept: each costs a prediction as much again.
 constexpr int k_steps = 600;
 constexpr int k_kept = 12;
-/// Half-widths of a step, about the width of the likelihood of ten runs.
+/// Half-widths of a step: ten runs hardly tell lengths and scatters apart that are nearer.
 constexpr double k_length_step = 1.7;
 constexpr double k_scatter_step = 3.5;
 
