@@ -24,13 +24,23 @@ Revolved::Revolved(Vec3 base, Vec3 axis, std::vector<ProfilePoint> profile)
   }
 }
 
-SurfacePoint Revolved::nearest(Vec3 point) const {
+Revolved::Place Revolved::place_of(Vec3 point) const {
   const Vec3 q = point - base_;
-  const double z = dot(q, axis_);
-  const Vec3 across = q - z * axis_;
-  const double r = norm(across);
-  const Vec3 outward = r > 0.0 ? across / r : side_;
+  Place place;
+  place.z = dot(q, axis_);
+  place.across = q - place.z * axis_;
+  place.r = norm(place.across);
+  place.outward = place.r > 0.0 ? place.across / place.r : side_;
+  return place;
+}
 
+SurfacePoint Revolved::nearest(Vec3 point) const {
+  const Place place = place_of(point);
+  const Foot foot = foot_of(place.r, place.z);
+  return {foot.distance, foot.normal_r * place.outward + foot.normal_z * axis_};
+}
+
+Revolved::Foot Revolved::foot_of(double r, double z) const {
   // Inside: the edge least deep. Outside: the nearest point of all edges.
   double deepest = -std::numeric_limits<double>::infinity();
   double nearest2 = std::numeric_limits<double>::infinity();
@@ -68,13 +78,22 @@ SurfacePoint Revolved::nearest(Vec3 point) const {
     const double distance =
         is_inside ? deepest
                   : (r - face->from.r) * face->along_z - (z - face->from.z) * face->along_r;
-    return {distance, face->along_z * outward - face->along_r * axis_};
+    return {distance, face->along_z, -face->along_r, face, false};
   }
   const double d = std::sqrt(nearest2);
-  return {d, (off_r / d) * outward + (off_z / d) * axis_};
+  return {d, off_r / d, off_z / d, face, true};
+}
+
+void Revolved::touch(int part, const ClosestPoints& spheres) const {
+  for (std::size_t n = 0; n < spheres.count; ++n) {
+    const Vec3 centre{spheres.x[n], spheres.y[n], spheres.z[n]};
+    spheres.put(n, has_faces_ ? Revolved::contact(part, centre, spheres.reach[n])
+                              : Revolved::nearest(centre));
+  }
 }
 
 bool Revolved::is_unchanged_by_turning(Vec3 point, Vec3 axis) const {
+  if (has_faces_) return false;
   const Vec3 off = point - base_;
   const Vec3 across = off - dot(off, axis_) * axis_;
   double largest = 0.0;

@@ -17,11 +17,20 @@ struct ProfilePoint {
 /// inside on the left; edges on the axis itself are no surface. The nearest point of the solid lies
 /// in the half-plane of the axis and the point, so the distance is that to the polygon: exact, also
 /// at the rims.
-class Revolved : public OnePart<Revolved> {
+///
+/// A sphere wider than a hole lies on it all round, where no one point is nearest for long: the
+/// nearest jumps from side to side as the sphere's centre crosses the axis. For a run with such
+/// spheres the inside of the hole is k_faces flat faces, each of which a sphere touches by itself.
+class Revolved : public Shape {
  public:
   Revolved(sdk::Vec3 base, sdk::Vec3 axis, std::vector<ProfilePoint> profile);
 
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point) const override;
+  void expect_spheres(double largest_radius) override;
+  [[nodiscard]] int parts() const override { return has_faces_ ? 1 + k_faces : 1; }
+  [[nodiscard]] SurfacePoint contact(int part, sdk::Vec3 point, double reach) const override;
+  void touch(int part, const ClosestPoints& spheres) const override;
+  [[nodiscard]] bool is_within(int part, sdk::Vec3 point, double reach) const override;
   /// The axis itself: `motion: belt` turns the surface about it.
   [[nodiscard]] sdk::Vec3 lateral_axis() const override { return axis_; }
   [[nodiscard]] bool is_bent() const override { return true; }
@@ -31,17 +40,42 @@ class Revolved : public OnePart<Revolved> {
   [[nodiscard]] bool is_unchanged_by_turning(sdk::Vec3 point, sdk::Vec3 axis) const override;
 
  private:
+  /// Folds of 15 degrees.
+  static constexpr int k_faces = 24;
   struct Edge {
     ProfilePoint from, to;
     double along_r = 0.0, along_z = 0.0;  ///< unit vector
     double length = 0.0;
     bool is_surface = true;
+
+    /// Whether it looks at the axis across a hole.
+    [[nodiscard]] bool is_of_hole() const { return is_surface && along_z < 0.0; }
   };
+  /// A point in cylindrical coordinates, and the unit vector from the axis towards it.
+  struct Place {
+    sdk::Vec3 across;  ///< [m] from the axis
+    sdk::Vec3 outward;
+    double r = 0.0, z = 0.0;  ///< [m]
+  };
+  /// The point of the profile nearest to another in the half-plane.
+  struct Foot {
+    double distance = 0.0;                  ///< [m] negative inside
+    double normal_r = 0.0, normal_z = 0.0;  ///< [-]
+    const Edge* edge = nullptr;
+    bool is_corner = false;
+  };
+  [[nodiscard]] Place place_of(sdk::Vec3 point) const;
+  [[nodiscard]] Foot foot_of(double r, double z) const;
+  [[nodiscard]] bool is_in_hole(const Foot& foot, double r, double z) const;
+  [[nodiscard]] SurfacePoint contact_of_face(int face, const Place& place) const;
+  [[nodiscard]] sdk::Vec3 face_direction(int face) const;
 
   sdk::Vec3 base_;
   sdk::Vec3 axis_;
   sdk::Vec3 side_;  ///< unit vector across, where a point on the axis needs one
   std::vector<Edge> edges_;
+  bool has_faces_ = false;
+  double hole_min_ = 0.0, hole_max_ = 0.0;  ///< [m] radii of the hole; 0 = none
 };
 
 }  // namespace dust::bodies

@@ -122,7 +122,7 @@ class Disc final : public Revolved {
              "Direction from the first face to the other; its length does not matter.");
     s.number(&Parameters::radius, "radius", dimension::length, "Outer radius.").above(0);
     s.number(&Parameters::hole_radius, "hole_radius", dimension::length,
-             "Radius of the hole; 0 = none. Grains must be smaller than the hole.")
+             "Radius of the hole; 0 = none.")
         .at_least(0)
         .optional();
     s.number(&Parameters::thickness, "thickness", dimension::length, "Thickness of the plate.")

@@ -52,10 +52,14 @@ struct ClosestPoints {
 
 /// A solid with an exact surface, in its own frame. A sphere touches each of its parts once, where
 /// it is nearest. Most shapes are one part: convex ones, and round hollow ones (tube, funnel,
-/// orifice) for spheres smaller than the hole; those with corners towards the grains have several.
+/// orifice) where no sphere is wider than the hole; those with corners towards the grains have
+/// several.
 class Shape {
  public:
   virtual ~Shape() = default;
+  /// Called before anything else, with the radius [m] of the largest sphere that will come: on
+  /// it depends what parts a shape has.
+  virtual void expect_spheres(double /*largest_radius*/) {}
   /// Nearest surface point; exact, also at edges and corners.
   [[nodiscard]] virtual SurfacePoint nearest(sdk::Vec3 point) const = 0;
   [[nodiscard]] virtual int parts() const { return 1; }

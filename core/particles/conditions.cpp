@@ -25,17 +25,17 @@ double largest_of(const std::vector<double>& diameters) {
 
 Conditions::Conditions(const scenario::Setup& setup, const bodies::BodySet& bodies,
                        std::vector<PairLaws> pair_laws, const std::vector<double>& diameters,
-                       double fluid_density, bool keeps_work)
+                       const DemOptions& options, bool keeps_work)
     : laws(std::move(pair_laws), names_of(setup.materials), largest_of(diameters), keeps_work,
            setup.audit.energy ? k_energy_columns : 0),
       surfaces(surfaces_of(setup, bodies)),
       domain(setup),
-      steps(time_steps(setup, bodies, laws.all(), diameters)) {
+      steps(time_steps(setup, bodies, laws.all(), diameters, options.release_speed)) {
   find_abutting(bodies, setup.domain.min, setup.domain.max, surfaces);
   for (const auto& m : setup.materials) {
     materials.push_back(m.properties);
     // Buoyancy of the hydrostatic pressure: the fluid's own pressure does not hold it.
-    const double share = 1.0 - fluid_density / m.properties.density;
+    const double share = 1.0 - options.fluid_density / m.properties.density;
     gravity.insert(gravity.end(), {share * setup.gravity.x, share * setup.gravity.y,
                                    share * setup.gravity.z, 0.0});
   }

@@ -17,11 +17,10 @@ namespace dust::particles {
 /// What particles meet. Fixed before the first step, but for the time and where moving surfaces
 /// stand at it.
 struct Conditions {
-  /// `fluid_density` > 0 [kg/m3] reduces gravity by the buoyancy of the hydrostatic pressure.
   /// `keeps_work`: the work of contacts is kept (ContactWork).
   Conditions(const scenario::Setup& setup, const bodies::BodySet& bodies,
-             std::vector<PairLaws> laws, const std::vector<double>& diameters, double fluid_density,
-             bool keeps_work = false);
+             std::vector<PairLaws> laws, const std::vector<double>& diameters,
+             const DemOptions& options, bool keeps_work);
 
   PairLawTable laws;
   std::vector<sdk::MaterialProperties> materials;

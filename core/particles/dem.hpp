@@ -89,8 +89,9 @@ struct DemOptions {
   double fluid_density = 0.0;  ///< [kg/m3] > 0: of the hydrostatic pressure that reduces gravity
   /// kg of dust per kg of grain, by material and class; empty: none carries any.
   std::vector<std::vector<double>> dust_shares;
-  bool catches_dust = false;  ///< take_up_dust() is called
-  bool keeps_wind = false;    ///< GrainRows::wind is asked for; with a fluid only
+  double release_speed = 0.0;  ///< [m/s] of the fastest particle as it is inserted
+  bool catches_dust = false;   ///< take_up_dust() is called
+  bool keeps_wind = false;     ///< GrainRows::wind is asked for; with a fluid only
   /// Particles that touch these are drawn out.
   std::vector<Opening> openings;
   bool records_wall_loads = false;    ///< close_wall_loads() is called

@@ -48,7 +48,7 @@ enum Number : std::size_t {
 Dem::Impl::Impl(const scenario::Setup& setup, const bodies::BodySet& bodies,
                 std::vector<PairLaws> laws, const std::vector<double>& diameters,
                 DemOptions options)
-    : conditions(setup, bodies, std::move(laws), diameters, options.fluid_density,
+    : conditions(setup, bodies, std::move(laws), diameters, options,
                  DustLoads(options.dust_shares).is_on()),
       store(setup.fluid.has_value()),
       inner(conditions.laws.history_stride()),

@@ -15,9 +15,10 @@ namespace {
 /// Fluid steps are whole numbers of coarse steps; this forgives the rounding of their quotient.
 constexpr double k_whole_slack = 1e-9;
 
-double approach_speed(const scenario::Setup& setup, const bodies::BodySet& bodies) {
+double approach_speed(const scenario::Setup& setup, const bodies::BodySet& bodies,
+                      double release_speed) {
   if (setup.time.expected_speed > 0.0) return setup.time.expected_speed;
-  double speed = k_default_speed;
+  double speed = std::max(k_default_speed, release_speed);
   for (const auto& body : bodies) speed = std::max(speed, body.largest_speed());
   return speed;
 }
@@ -121,10 +122,11 @@ const ClassStep* TimeSteps::deciding() const { return smallest(classes, 0.0); }
 const ClassStep* TimeSteps::coarse_deciding() const { return smallest(classes, coarse_limit); }
 
 TimeSteps time_steps(const scenario::Setup& setup, const bodies::BodySet& bodies,
-                     std::span<const PairLaws> laws, std::span<const double> diameters) {
+                     std::span<const PairLaws> laws, std::span<const double> diameters,
+                     double release_speed) {
   if (diameters.empty()) throw sdk::ParameterError("no grain diameters: the time step is unknown");
   TimeSteps out;
-  out.expected_speed = approach_speed(setup, bodies);
+  out.expected_speed = approach_speed(setup, bodies, release_speed);
   const double largest = diameters.back();
   out.coarse_limit = setup.time.rates_single ? 0.0 : k_coarse_share * largest * (1.0 - 1e-12);
   const Encounters encounters{setup, laws, grain_materials(setup), largest, out.expected_speed};

@@ -19,8 +19,8 @@ std::set<int> grain_materials(const scenario::Setup& setup);
 /// \f$ G = E / (2 (1 + \nu)) \f$. Source: Li, Xu, Thornton, Powder Technol. 160 (2005) 219.
 double rayleigh_time(const sdk::MaterialProperties& material, double radius);
 
-/// Approach speed [m/s] taken where a scenario gives none and no body moves faster: the speed of a
-/// fall from 13 mm. Approach speeds in contacts count, not the speed of a free fall.
+/// Approach speed [m/s] taken where a scenario gives none and no body or grain let in is faster:
+/// the speed of a fall from 13 mm. Approach speeds in contacts count, not the speed of a free fall.
 inline constexpr double k_default_speed = 0.5;
 
 /// Shares of the Rayleigh and Hertz times that keep a collision accurate: how near to the declared
@@ -48,8 +48,10 @@ struct TimeSteps {
 };
 
 /// Derives the steps of grains of `diameters` (all that may come, ascending, at least one), each of
-/// any material that grains have here: a diameter does not tell its material.
+/// any material that grains have here: a diameter does not tell its material. The fastest is let in
+/// at `release_speed` [m/s].
 TimeSteps time_steps(const scenario::Setup& setup, const bodies::BodySet& bodies,
-                     std::span<const PairLaws> laws, std::span<const double> diameters);
+                     std::span<const PairLaws> laws, std::span<const double> diameters,
+                     double release_speed);
 
 }  // namespace dust::particles

@@ -42,7 +42,8 @@ double largest_speed(const bodies::BodySet& bodies) {
 
 particles::TimeSteps derive_steps(const Setup& setup, const ParticleModels& models) {
   if (!models.class_diameters.empty()) {
-    return particles::time_steps(setup, models.bodies, models.laws, models.class_diameters);
+    return particles::time_steps(setup, models.bodies, models.laws, models.class_diameters,
+                                 models.release_speed);
   }
   // Nothing shortens the step of grains that never come.
   particles::TimeSteps steps;
@@ -197,6 +198,19 @@ bool is_self_disturbance_corrected(const Setup& setup, const Derived& derived, d
 
 particles::TimeSteps derive_steps(const Setup& setup, const registry::Registry& registry) {
   return derive_steps(setup, make_particle_models(setup, registry));
+}
+
+void check_energy_account(const Setup& setup, const ParticleModels& models,
+                          scenario::Diagnostics& diagnostics) {
+  if (!setup.audit.energy || models.class_diameters.empty()) return;
+  const particles::TimeSteps steps = derive_steps(setup, models);
+  const particles::ClassStep& smallest = steps.classes.front();
+  if (steps.is_coarse(smallest)) return;
+  diagnostics.error(setup.audit.where,
+                    "audit.energy: grains of " + base::length_text(smallest.diameter, 3) +
+                        ", below an eighth of the largest, step at rates of their own and exchange "
+                        "impulses that the account of a step does not hold; give `time: {rates: "
+                        "single}` or leave the account out");
 }
 
 void check_step_count(const Setup& setup, const ParticleModels& models,

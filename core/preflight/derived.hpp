@@ -63,6 +63,10 @@ particles::TimeSteps derive_steps(const scenario::Setup& setup, const registry::
 void check_step_count(const scenario::Setup& setup, const ParticleModels& models,
                       scenario::Diagnostics& diagnostics);
 
+/// Refuses an account of energy of grains that step at several rates.
+void check_energy_account(const scenario::Setup& setup, const ParticleModels& models,
+                          scenario::Diagnostics& diagnostics);
+
 /// Is a fixed `time.dem_step` too long for the grains that take it? A warning above the stable
 /// step, an error where a collision would not be seen or the grains would fly apart.
 void check_fixed_step(const scenario::Setup& setup, const registry::Registry& registry,

@@ -54,11 +54,19 @@ ParticleModels make_particle_models(const scenario::Setup& setup,
     m.emitters.push_back(registry.create_as<sdk::Emitter>(spec.model));
     const auto diameters = m.emitters.back()->diameters();
     m.class_diameters.insert(m.class_diameters.end(), diameters.begin(), diameters.end());
+    m.release_speed = std::max(m.release_speed, m.emitters.back()->largest_speed());
   }
   std::sort(m.class_diameters.begin(), m.class_diameters.end());
   m.class_diameters.erase(std::unique(m.class_diameters.begin(), m.class_diameters.end()),
                           m.class_diameters.end());
+  inform_shapes(m);
   return m;
+}
+
+void inform_shapes(ParticleModels& models) {
+  if (models.class_diameters.empty()) return;
+  const double largest = 0.5 * models.class_diameters.back();
+  for (bodies::Body& body : models.bodies) body.shape->expect_spheres(largest);
 }
 
 }  // namespace dust::preflight

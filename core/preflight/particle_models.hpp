@@ -19,7 +19,11 @@ struct ParticleModels {
   std::vector<particles::PairLaws> laws;
   std::vector<std::unique_ptr<sdk::Emitter>> emitters;
   std::vector<double> class_diameters;  ///< [m] all sizes the emitters may give, ascending
+  double release_speed = 0.0;           ///< [m/s] of the fastest grain as it is let in
 };
+
+/// The shapes of bodies get to know the largest grain; again where sizes come besides.
+void inform_shapes(ParticleModels& models);
 
 ParticleModels make_particle_models(const scenario::Setup& setup,
                                     const registry::Registry& registry);

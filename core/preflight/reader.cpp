@@ -84,6 +84,7 @@ void check_places(const scenario::ReadResult& read, const SideModels& sides,
   check_reach(read.setup, models, diagnostics);
   check_histories(read.setup, read.dust, models, diagnostics);
   check_step_count(read.setup, models, diagnostics);
+  check_energy_account(read.setup, models, diagnostics);
   check_cohesion(read.setup, models, registry, diagnostics);
   check_softness(read.setup, models, registry, diagnostics);
   check_release(read.setup, read.dust, models, first, diagnostics);

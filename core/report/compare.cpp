@@ -467,6 +467,10 @@ std::string comparison_text(const Comparison& c) {
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';
   }
+  const bool has_errors = std::any_of(c.headline.begin(), c.headline.end(), [](const auto& pair) {
+    return std::isfinite(pair.in_errors());
+  });
+  if (has_errors && !c.is_same_state) text += std::string(k_errors_of_one_run) + '\n';
   text += places_text(c);
   if (c.is_same_state) text += "The end states are the same, bit for bit.\n";
   text += c.scenario.empty() ? "The scenarios are the same.\n" : "The scenarios differ in:\n";

@@ -193,6 +193,7 @@ json comparison_document(const Comparison& c, const std::filesystem::path& first
   data["names"] = {c.first_name, c.second_name};
   data["status"] = {text_at(c.first.summary, "status"), text_at(c.second.summary, "status")};
   data["is_same_state"] = c.is_same_state;
+  data["errors_of_one_run"] = k_errors_of_one_run;
   data["headline"] = pairs_json(c.headline);
   data["quantities"] = pairs_json(c.quantities);
   data["scenario"] = scenario_json(c.scenario);

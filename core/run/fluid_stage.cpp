@@ -40,7 +40,7 @@ void copy(const std::vector<double>& from, std::vector<double>& to) {
 FluidStage::FluidStage(const scenario::Setup& setup, const Models& models)
     : setup_(setup), models_(models), grid_(grid_of(setup)) {
   fluid::Boundaries boundaries{};
-  for (std::size_t s = 0; s < 6; ++s) boundaries[s] = models_.boundaries[s].get();
+  for (std::size_t s = 0; s < 6; ++s) boundaries[s] = models_.sides->models()[s];
   solver_ = std::make_unique<fluid::FluidSolver>(grid_, *setup_.fluid, models_.bodies, boundaries);
   const sdk::Vec3 initial = setup_.fluid->initial_velocity;
   solver_->set_velocity([initial](sdk::Vec3) { return initial; });

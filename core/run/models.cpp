@@ -11,11 +11,7 @@ Models make_models(const scenario::Setup& setup, const registry::Registry& regis
     m.sensors.push_back(registry.create_as<sdk::Sensor>(spec.model));
   }
   if (setup.fluid) {
-    for (std::size_t side = 0; side < 6; ++side) {
-      if (const auto& air = setup.domain.sides[side].air) {
-        m.boundaries[side] = registry.create_as<sdk::BoundaryCondition>(*air);
-      }
-    }
+    m.sides.emplace(setup, registry);
     if (setup.drag) m.drag = registry.create_as<sdk::DragLaw>(*setup.drag);
     for (const auto& force : setup.fluid_forces) {
       m.fluid_forces.push_back(registry.create_as<sdk::FluidForce>(force));

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dust/sdk/boundary_condition.hpp"
 #include "dust/sdk/drag_law.hpp"
 #include "dust/sdk/fluid_force.hpp"
 #include "dust/sdk/liberation_law.hpp"
 #include "dust/sdk/sensor.hpp"
 #include "dust/sdk/turbulence_model.hpp"
 #include "dust/sdk/voidage_rule.hpp"
+#include "preflight/air/side_faces.hpp"
 #include "preflight/particle_models.hpp"
 #include "registry/registry.hpp"
 #include "setup/dust_setup.hpp"
 #include "setup/setup.hpp"
 
-#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace dust::run {
@@ -22,7 +22,7 @@ namespace dust::run {
 /// Every model of a scenario, made once.
 struct Models : preflight::ParticleModels {
   std::vector<std::unique_ptr<sdk::Sensor>> sensors;
-  std::array<std::unique_ptr<sdk::BoundaryCondition>, 6> boundaries;
+  std::optional<preflight::SideModelSet> sides;  ///< of the air; none without a fluid
   std::unique_ptr<sdk::DragLaw> drag;
   std::vector<std::unique_ptr<sdk::FluidForce>> fluid_forces;
   std::unique_ptr<sdk::VoidageRule> voidage;

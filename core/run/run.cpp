@@ -42,6 +42,7 @@ Models make_models_of(const scenario::ReadResult& read, const registry::Registry
     const io::StoredState state(*resumed / "checkpoint.h5", k_restart_remedy);
     models.class_diameters = class_diameters_of(state);
   }
+  preflight::inform_shapes(models);
   return models;
 }
 

@@ -27,6 +27,7 @@ particles::DemOptions dem_options(const scenario::Setup& setup, const Models& mo
                                   const scenario::DustSetup& dust) {
   particles::DemOptions options{
       .dust_shares = dust.shares_on_grains(),
+      .release_speed = models.release_speed,
       .catches_dust = dust.field && dust.field->scavenging,
       .keeps_wind = dust.field && models.liberation && models.liberation->needs_wind(),
       .openings = openings_of(setup, dust)};

@@ -44,10 +44,10 @@ const ParameterSchema& TimeBlock::schema() {
              "Fixed step of the grains; 0 derives one per size class.")
         .at_least(0)
         .optional();
-    s.number(
-         &TimeBlock::expected_speed, "expected_speed", dimension::velocity,
-         "Largest approach speed of grains, for their steps; 0 takes that of the fastest body, at "
-         "least 0.5 m/s.")
+    s.number(&TimeBlock::expected_speed, "expected_speed", dimension::velocity,
+             "Largest approach speed of grains, for their steps; 0 takes that of the fastest body, "
+             "or of "
+             "the fastest grain as it is let in, at least 0.5 m/s.")
         .at_least(0)
         .optional();
     s.text(&TimeBlock::rates, "rates",
@@ -227,7 +227,8 @@ const ParameterSchema& AuditBlock::schema() {
     SchemaOf<AuditBlock> s;
     s.boolean(&AuditBlock::energy, "energy",
               "Keeps account of the energy of the grains: kinetic, elastic, work of gravity, walls "
-              "and fluid, losses by damping, friction and rolling. Needs time.rates: single.")
+              "and fluid, losses by damping, friction and rolling. Grains below an eighth "
+              "of the largest one need time.rates: single.")
         .optional();
     return s.build();
   }();

@@ -224,7 +224,7 @@ class DustQuantities {
 
   /// As run::DustStage::lets_dust_out.
   [[nodiscard]] bool lets_dust_out(std::size_t side) const {
-    return !has_hood(dust_, side) && preflight::passes_air(setup_, side, sides_.models()[side]);
+    return !has_hood(dust_, side) && preflight::passes_air(setup_, side, sides_.models());
   }
 
   /// Sides that dust settles on, whether they hold grains or not, and bodies.

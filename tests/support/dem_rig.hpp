@@ -9,6 +9,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -117,6 +118,9 @@ struct DemRig {
   /// Takes the laws.
   std::unique_ptr<particles::Dem> make() {
     if (has_fluid) setup.fluid.emplace();
+    for (bodies::Body& body : bodies) {
+      body.shape->expect_spheres(0.5 * *std::max_element(diameters.begin(), diameters.end()));
+    }
     return std::make_unique<particles::Dem>(setup, bodies, std::move(laws), diameters, options);
   }
 };

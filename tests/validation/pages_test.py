@@ -329,6 +329,7 @@ class Stale(unittest.TestCase):
             file = pathlib.Path(folder) / "page.md"
             file.write_text("\n".join(["# Page", "", "| figure | 900 |", "", "## Runs", "", *rows]) + "\n")
             self.assertEqual(3.0, kept.Kept(file).hours())
+            self.assertEqual(2.0, kept.Kept(file).hours(besides={"ran"}))
 
     def test_the_engine_tells_its_commit(self):
         self.assertEqual(runs.commit_in("engine 0.1.0\ncommit: abc1234, changed\n"), "abc1234+changes")

@@ -24,7 +24,7 @@
       data.is_same_state ? p({class: 'lede'}, Dust.strong('The end states are the same'), ', bit for bit.') : '',
       ...data.names.filter((_, k) => data.status[k] && data.status[k] !== 'finished').map((name, k) => p({class: 'banner'}, `${name} was not finished: ${data.status[data.names.indexOf(name)]}.`)),
       Dust.table(columns, rows, {label: 'The runs beside each other'}) || '',
-      p({class: 'note'}, 'Differences are those of the second run from the first. In standard errors: the difference over the root of the sum of both errors squared, for independent runs; beyond three in bold.'));
+      p({class: 'note'}, 'Differences are those of the second run from the first. In standard errors: the difference over the root of the sum of both errors squared, for independent runs; beyond three in bold. ', data.errors_of_one_run));
   };
   Dust.sections.scenarios = ({scenario}) => {
     if (!scenario.length) return Dust.section('scenarios', 'Scenarios', p({}, 'Both runs have the same scenario.'));

@@ -49,17 +49,13 @@ Dust.draw_extraction = () => {
       pen.fillText(text, left + size / 2, top + size / 2);
     }
   };
-  const below = (pen, picture, colour) => {
-    pen.fillStyle = Dust.colour(colour);
-    pen.fillRect(picture.place.left, picture.place.top, picture.place.inner, picture.place.height);
-  };
-
   const pressure = document.getElementById('mean-pressure-picture');
   if (pressure && Dust.air) {
     const set = Dust.data.air;
     let frame = null;
     const picture = new Dust.Picture(pressure, 'Map of the mean air pressure with ranked places', (pen, self) => {
-      below(pen, self, 'body');
+      pen.fillStyle = Dust.colour('body');
+      pen.fillRect(self.place.left, self.place.top, self.place.inner, self.place.height);
       if (frame) Dust.air.paint_pressure(pen, self, frame);
       self.bodies(pen);
       rings(pen, self);
@@ -75,49 +71,15 @@ Dust.draw_extraction = () => {
   const dust = document.getElementById('dust-map-picture');
   const set = Dust.data.dust_map;
   if (!dust || !set) return;
-  const colour_of = Dust.dust_colour;
-  const buffer = document.createElement('canvas');
-  buffer.width = set.nx;
-  buffer.height = set.nz;
-  let codes = null;
-  const picture = new Dust.Picture(dust, 'Map of the mean amount of dust with ranked places', (pen, self) => {
-    below(pen, self, 'raised');
-    if (codes) {
-      const inner = buffer.getContext('2d'), image = inner.createImageData(set.nx, set.nz);
-      for (let z = 0; z < set.nz; ++z) {
-        for (let x = 0; x < set.nx; ++x) {
-          const code = codes[(set.nz - 1 - z) * set.nx + x];
-          if (code) image.data.set([...colour_of((code - 1) / 253), 255], 4 * (z * set.nx + x));
-        }
-      }
-      inner.putImageData(image, 0, 0);
-      pen.imageSmoothingEnabled = false;
-      pen.drawImage(buffer, self.x(set.x0), self.z(set.z0 + set.nz * set.cell),
-        set.nx * set.cell * self.place.scale, set.nz * set.cell * self.place.scale);
-    }
-    self.bodies(pen);
-    squares(pen, self);
-    rings(pen, self);
-  });
-  picture.tell_values('share of the dust', '%/cm²', {nx: set.nx, nz: set.nz, x0: set.x0, z0: set.z0, dx: set.cell, dz: set.cell},
-    (k) => (codes && codes[k] ? 100 * set.most * 10 ** (set.decades * ((codes[k] - 1) / 253 - 1)) : null));
-  Dust.unpack(set.data).then((bytes) => {
-    codes = bytes;
-    picture.draw();
-  });
-  // A logarithmic strip: decades down from the largest share.
-  const strip = Dust.el('canvas', {width: 256, height: 1});
-  const labels = Array.from({length: set.decades + 1}, (_, k) => Dust.el('span', {style: `left:${100 * k / set.decades}%`},
-    Dust.number(100 * set.most * 10 ** (k - set.decades), 2)));
-  document.getElementById('dust-map-legend').append(Dust.el('div', {class: 'scale'}, strip,
-    Dust.el('div', {class: 'ends'}, ...labels, Dust.el('span', {class: 'name'}, '%/cm²'))));
-  const draw = () => {
-    const pen = strip.getContext('2d');
-    for (let k = 0; k < 256; ++k) {
-      pen.fillStyle = Dust.css(colour_of(k / 255));
-      pen.fillRect(k, 0, 1, 1);
-    }
+  const map = {...set, dx: set.cell, dz: set.cell}, most = 100 * set.most;
+  const over = (pen, picture) => {
+    squares(pen, picture);
+    rings(pen, picture);
   };
-  Dust.redraw.push(draw);
-  draw();
+  const picture = Dust.draw_map(dust, 'Map of the mean amount of dust with ranked places', map, Dust.dust_colour, {over});
+  picture.tell_values('share of the dust', '%/cm²', map, (k) => {
+    const code = picture.code(k);
+    return code ? most * 10 ** (set.decades * ((code - 1) / 253 - 1)) : null;
+  });
+  Dust.decades_strip(document.getElementById('dust-map-legend'), map, Dust.dust_colour, most, '%/cm²');
 };

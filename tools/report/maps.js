@@ -1,8 +1,8 @@
 'use strict';
 // Maps that are logarithmic in a byte: 0 is nothing, 1 to 254 span `decades` up to `most`.
 
-// `map`: {nx, nz, x0, z0, dx, dz, data}. Returns the picture.
-Dust.draw_map = (parent, label, map, colour_of, scene = Dust.data) => {
+// `map`: {nx, nz, x0, z0, dx, dz, data}. `over` draws on top of it and the bodies. Returns the picture.
+Dust.draw_map = (parent, label, map, colour_of, {scene = Dust.data, over = () => {}} = {}) => {
   const buffer = document.createElement('canvas');
   buffer.width = map.nx;
   buffer.height = map.nz;
@@ -23,6 +23,7 @@ Dust.draw_map = (parent, label, map, colour_of, scene = Dust.data) => {
       pen.drawImage(buffer, self.x(map.x0), self.z(map.z0 + map.nz * map.dz), map.nx * map.dx * self.place.scale, map.nz * map.dz * self.place.scale);
     }
     self.bodies(pen);
+    over(pen, self);
   }, scene);
   Dust.unpack(map.data).then((bytes) => {
     codes = bytes;
@@ -66,7 +67,7 @@ Dust.draw_maps = () => {
     const right = map.x0 + map.nx * map.dx, top = map.z0 + map.nz * map.dz, margin = 0.08 * Math.max(right - map.x0, top - map.z0);
     // Outlines are those seen from the side.
     const scene = {view: [map.x0 - margin, map.z0 - margin, right + margin, top + margin], axes: map.axes, bodies: map.along === 'y' ? Dust.data.bodies : []};
-    const picture = Dust.draw_map(parent, `${Dust.sentence(map.name)}, ${Dust.words(map.sensor)}`, map, Dust.release_colour, scene);
+    const picture = Dust.draw_map(parent, `${Dust.sentence(map.name)}, ${Dust.words(map.sensor)}`, map, Dust.release_colour, {scene});
     picture.tell_values(Dust.words(map.name), unit, map, (cell) => {
       const code = picture.code(cell);
       return code ? map.most / factor * 10 ** (map.decades * ((code - 1) / 253 - 1)) : null;

@@ -58,9 +58,9 @@ class Kept:
     def cpu_s(self, run):
         return float(self._runs[run.name]["CPU [s]"])
 
-    def hours(self):
-        """What its runs took; one that stands under two names was made once."""
-        took = {cells.get("state", name): cells.get("CPU [s]", "-") for name, cells in self._runs.items()}
+    def hours(self, besides=()):
+        """What its runs but those named took; one that stands under two names was made once."""
+        took = {cells.get("state", name): cells.get("CPU [s]", "-") for name, cells in self._runs.items() if name not in besides}
         return sum(float(seconds) for seconds in took.values() if seconds != "-") / 3600
 
     def run_rows(self, columns, besides):

@@ -21,26 +21,43 @@ double overlap_of(const Conditions& conditions, std::size_t surface, const doubl
 class NewOverlaps {
  public:
   NewOverlaps(const Conditions& from, const Conditions& to, const Translation& names)
-      : from_(from), to_(to), before_(to.surfaces.size(), -1) {
+      : from_(from), to_(to), before_(to.surfaces.size()) {
     for (std::size_t s = 0; s < names.surfaces().size(); ++s) {
       const std::int32_t here = names.surfaces()[s];
-      if (here >= 0) before_[static_cast<std::size_t>(here)] = static_cast<std::int32_t>(s);
+      if (here >= 0) before_[static_cast<std::size_t>(here)] = {s};
+    }
+    for (std::size_t s = 0; s < before_.size(); ++s) {
+      if (before_[s].empty()) before_[s] = other_parts_of(to.surfaces[s]);
     }
   }
   /// `position`: x, y, z, radius [m].
   [[nodiscard]] bool lies_in(const double* position, std::size_t surface) const {
     const double overlap = overlap_of(to_, surface, position);
     if (overlap <= k_touch * position[3]) return false;
-    if (before_[surface] < 0) return true;
     // What is pressed into a surface already, stays so.
-    const auto then = static_cast<std::size_t>(before_[surface]);
-    return overlap > 2.0 * overlap_of(from_, then, position);
+    double then = 0.0;
+    for (const std::size_t s : before_[surface]) {
+      then = std::max(then, overlap_of(from_, s, position));
+    }
+    return overlap > 2.0 * then;
   }
 
  private:
+  /// Numbers of the surfaces of a body that has other parts than before.
+  [[nodiscard]] std::vector<std::size_t> other_parts_of(const Surface& surface) const {
+    std::vector<std::size_t> parts;
+    for (std::size_t s = 0; surface.body != nullptr && s < from_.surfaces.size(); ++s) {
+      const Surface& other = from_.surfaces[s];
+      if (other.body != nullptr && other.name == surface.name) parts.push_back(s);
+    }
+    return parts;
+  }
+
   const Conditions& from_;
   const Conditions& to_;
-  std::vector<std::int32_t> before_;  ///< the other's number of each surface, -1: it had none
+  /// The other's numbers of each surface, those of its whole body where its part is new; empty: it
+  /// had none.
+  std::vector<std::vector<std::size_t>> before_;
 };
 
 void note_name(std::vector<std::string>& names, const std::string& name) {

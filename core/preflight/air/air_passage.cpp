@@ -12,7 +12,8 @@ constexpr double k_latest = 1e6;
 
 }  // namespace
 
-bool passes_air(const Setup& setup, std::size_t side, const sdk::BoundaryCondition* model) {
+bool passes_air(const Setup& setup, std::size_t side, const SideModels& sides) {
+  const sdk::BoundaryCondition* model = sides[side];
   if (!setup.fluid || model == nullptr) return false;
   if (model->rules().normal_velocity != SideRule::fixed) return true;
   if (is_too_large(setup, side)) return model->needs_flow();
@@ -21,7 +22,7 @@ bool passes_air(const Setup& setup, std::size_t side, const sdk::BoundaryConditi
     faces.ask(*model, time);
     return faces.is_passed();
   };
-  for (const double time : instants(setup)) {
+  for (const double time : instants(setup, sides)) {
     if (is_passed_at(time)) return true;
   }
   // A run that is given a later end is to find the same answer.
@@ -31,12 +32,13 @@ bool passes_air(const Setup& setup, std::size_t side, const sdk::BoundaryConditi
   return false;
 }
 
-bool passes_air_everywhere(const Setup& setup, std::size_t side,
-                           const sdk::BoundaryCondition& model) {
+bool passes_air_everywhere(const Setup& setup, std::size_t side, const SideModels& sides) {
+  if (sides[side] == nullptr) return false;
+  const sdk::BoundaryCondition& model = *sides[side];
   if (model.rules().normal_velocity != SideRule::fixed) return true;
   if (is_too_large(setup, side)) return false;
   SideFaces faces(setup, side);
-  for (const double time : instants(setup)) {
+  for (const double time : instants(setup, sides)) {
     faces.ask(model, time);
     if (faces.is_passed_everywhere()) return true;
   }

@@ -159,7 +159,7 @@ double wind_speed(const Setup& setup, const SideModels& sides) {
   if (!setup.fluid) return 0.0;
   double largest = 0.0;
   for (std::size_t n = 0; n < 6; ++n) {
-    if (sides[n] == nullptr || !passes_air_everywhere(setup, n, *sides[n])) continue;
+    if (!passes_air_everywhere(setup, n, sides)) continue;
     largest = std::max(largest, side_speed(setup, sides, n));
   }
   return largest;

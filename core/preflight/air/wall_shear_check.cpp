@@ -28,7 +28,7 @@ void check_wall_shear(const Setup& setup, const SideModels& sides, const scenari
   };
   if (sides[side] == nullptr) {
     refuse(" is periodic, no wall that the air could rub; name a side that is one");
-  } else if (passes_air_everywhere(setup, side, *sides[side])) {
+  } else if (passes_air_everywhere(setup, side, sides)) {
     refuse(" lets air pass wherever it is, so that there is no wall; name a side that is one");
   } else if (sides[side]->rules().tangential_velocity != SideRule::fixed) {
     refuse(

@@ -66,55 +66,39 @@ bool brings_many(const sdk::Emitter& emitter) {
   return request.mass_flow > 0.0 || request.mass > 0.0 || request.count > k_few;
 }
 
-/// [m] Of all, and of those that come in numbers.
-struct LargestGrains {
-  double all = 0.0;
-  double many = 0.0;
-};
-
-LargestGrains largest_grains(const ParticleModels& models) {
-  LargestGrains largest;
+/// [m] Of those that come in numbers.
+double largest_of_many(const ParticleModels& models) {
+  double largest = 0.0;
   for (const auto& emitter : models.emitters) {
     const std::vector<double> diameters = emitter->diameters();
-    if (diameters.empty()) continue;
-    largest.all = std::max(largest.all, diameters.back());
-    if (brings_many(*emitter)) largest.many = std::max(largest.many, diameters.back());
+    if (!diameters.empty() && brings_many(*emitter)) largest = std::max(largest, diameters.back());
   }
   return largest;
 }
 
-/// Of an outlet that grains of this diameter [m] do not pass: a sphere has one contact with a round
-/// wall, where it is nearest.
-std::string blocked_text(double diameter) {
-  return "is narrower than the largest grains (" + base::length_text(diameter, 3) +
-         "): they block it, and one that lies on its rim touches it where it is nearest alone, "
-         "which jumps from side to side, so that energy comes out of nothing and it may be thrown "
-         "out; make it at least " +
-         base::length_text(5.0 * diameter, 3) +
-         ", if they are to flow, or draw the part as a mesh of 24 flat faces round";
+/// What happens at an outlet of this width to many grains of this diameter [m].
+std::string stopped_text(double width, double diameter) {
+  const std::string grains = "the largest grains (" + base::length_text(diameter, 3) + ")";
+  if (width < diameter) return "is narrower than " + grains + ": they lie on it and block it";
+  return "is " + base::digits_text(width / diameter, 2) + " times as wide as " + grains +
+         ": below some 5 times they arch over it and the flow stops, and Beverloo's correlation "
+         "does not hold";
 }
 
 }  // namespace
 
 void check_outlets(const scenario::Setup& setup, const ParticleModels& models,
                    scenario::Diagnostics& diagnostics) {
-  const LargestGrains largest = largest_grains(models);
+  const double largest = largest_of_many(models);
   for (const scenario::BodySpec& body : setup.bodies) {
     const Outlet outlet = outlet_of(body.shape);
-    if (!(outlet.width > 0.0)) continue;
-    const std::string what = "bodies." + body.name + ": " + outlet.what + " of " +
-                             base::length_text(outlet.width, 3) + " ";
-    if (outlet.width < largest.all) {
-      diagnostics.warning(body.shape.where, what + blocked_text(largest.all));
-    } else if (outlet.width < k_arching * largest.many && looks_down(setup, body, outlet)) {
-      diagnostics.warning(
-          body.shape.where,
-          what + "is " + base::digits_text(outlet.width / largest.many, 2) +
-              " times as wide as the largest grains (" + base::length_text(largest.many, 3) +
-              "): below some 5 times they arch over it and the flow stops, and Beverloo's "
-              "correlation does not hold; make it at least " +
-              base::length_text(5.0 * largest.many, 3) + ", if they are to flow");
-    }
+    if (!(outlet.width > 0.0) || !(outlet.width < k_arching * largest)) continue;
+    if (!looks_down(setup, body, outlet)) continue;
+    diagnostics.warning(body.shape.where,
+                        "bodies." + body.name + ": " + outlet.what + " of " +
+                            base::length_text(outlet.width, 3) + " " +
+                            stopped_text(outlet.width, largest) + "; make it at least " +
+                            base::length_text(5.0 * largest, 3) + ", if they are to flow");
   }
 }
 

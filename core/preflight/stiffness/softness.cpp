@@ -160,8 +160,8 @@ std::string stiffness_advice(const Setup& setup, const ImpactOverlap& impact) {
 ImpactOverlap expected_impact(const Setup& setup, const ParticleModels& models,
                               const registry::Registry& registry) {
   if (models.class_diameters.empty()) return {};
-  const particles::TimeSteps steps =
-      particles::time_steps(setup, models.bodies, models.laws, models.class_diameters);
+  const particles::TimeSteps steps = particles::time_steps(
+      setup, models.bodies, models.laws, models.class_diameters, models.release_speed);
   const double of_steps = steps.expected_speed;
   const Fall fall = largest_fall(setup, models.bodies, registry);
   // What the scenario says of its grains holds.

@@ -19,10 +19,10 @@ DustSides::DustSides(const scenario::Setup& setup, const Models& models, const f
   for (std::size_t o = 0; o < openings.size(); ++o) {
     if (openings[o].side >= 0) mark_opening(static_cast<std::int32_t>(o), openings[o]);
   }
+  const preflight::SideModels& sides = models.sides->models();
   for (std::size_t side = 0; side < 6; ++side) {
     holds_grains_[side] = setup.domain.sides[side].grains == scenario::GrainSide::wall;
-    lets_out_[side] =
-        outlets_[side].empty() && preflight::passes_air(setup, side, models.boundaries[side].get());
+    lets_out_[side] = outlets_[side].empty() && preflight::passes_air(setup, side, sides);
   }
 }
 

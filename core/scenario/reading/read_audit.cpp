@@ -20,12 +20,6 @@ void read_audit(Reading& reading, MapReader& top) {
 /// What the account does not hold.
 void check_audit(Reading& reading) {
   if (!reading.setup.audit.energy) return;
-  if (!reading.setup.time.rates_single) {
-    reading.error(
-        reading.setup.audit.where,
-        "audit.energy: grains on finer time steps exchange impulses that the account of a step "
-        "does not hold; give `time: {rates: single}` or leave the account out");
-  }
   if (reading.setup.fluid && !reading.setup.fluid->resolved.empty()) {
     reading.error(
         reading.setup.audit.where,

@@ -272,6 +272,60 @@ TEST_CASE("faces, rims and tips shall be met where they are") {
   CHECK(plane->nearest({3, 4, 1}).distance == -1.0);
 }
 
+TEST_CASE("a round hole shall be faced for spheres that are wider than it, and for those alone") {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const auto disc = make_shape("disc", {{"centre", Vec3{0, 0, -1}},
+                                        {"axis", k_up},
+                                        {"radius", 9.0},
+                                        {"hole_radius", 3.0},
+                                        {"thickness", 1.0}});
+  disc->expect_spheres(3.0);
+  CHECK(disc->parts() == 1);
+  disc->expect_spheres(4.0);
+  REQUIRE(disc->parts() == 25);
+  const auto touched = [&](Vec3 point, double reach) {
+    std::vector<double> distances;
+    for (int part = 0; part < disc->parts(); ++part) {
+      const SurfacePoint s = disc->contact(part, point, reach);
+      CHECK((s.distance == infinity || disc->is_within(part, point, s.distance + 1e-9)));
+      if (s.distance < reach) distances.push_back(s.distance);
+    }
+    return distances;
+  };
+  // In the middle all faces of the rim, as far as the rim is; beside the hole its plane alone.
+  const auto on_rim = touched({0, 0, 2}, 4.0);
+  CHECK(on_rim.size() == 24);
+  for (const double d : on_rim) CHECK(d == approx(std::sqrt(9.0 + 4.0)).epsilon(1e-12));
+  CHECK(touched({5, 1, 2}, 4.0) == std::vector<double>{2.0});
+  CHECK(touched({-2, 12, -0.5}, 4.0).size() == 1);
+  // A small one in the hole touches the face, or where two meet both, less than a hundredth of
+  // the hole farther out than the circle.
+  for (double angle = 0.01; angle < 6.28; angle += 0.05) {
+    const auto found = touched({2.8 * std::cos(angle), 2.8 * std::sin(angle), -0.5}, 0.24);
+    REQUIRE(!found.empty());
+    CHECK(found.size() <= 2);
+    const double nearest = *std::min_element(found.begin(), found.end());
+    CHECK(nearest >= 0.2 - 1e-12);
+    CHECK(nearest < 0.2 + 0.009 * 3.0);
+  }
+  const auto tube = make_shape(
+      "cylinder",
+      {{"base", Vec3{}}, {"axis", k_up}, {"radius", 1.0}, {"length", 2.0}, {"thickness", 0.1}});
+  CHECK(tube->is_unchanged_by_turning({0, 0, 5}, {0, 0, 1}));
+  tube->expect_spheres(1.5);
+  CHECK_FALSE(tube->is_unchanged_by_turning({0, 0, 5}, {0, 0, 1}));
+  // What has no hole has no faces; a cap has none wide enough for any sphere.
+  const auto solid =
+      make_shape("cylinder", {{"base", Vec3{}}, {"axis", k_up}, {"radius", 1.0}, {"length", 2.0}});
+  solid->expect_spheres(5.0);
+  CHECK(solid->parts() == 1);
+  const auto cap = make_shape(
+      "cone",
+      {{"base", Vec3{}}, {"axis", k_up}, {"radius", 1.0}, {"length", 2.0}, {"thickness", 0.1}});
+  cap->expect_spheres(0.01);
+  CHECK(cap->parts() == 25);
+}
+
 TEST_CASE("written surfaces shall lie on the shapes and look outwards") {
   for (const Described& d : described()) {
     CAPTURE(d.name);

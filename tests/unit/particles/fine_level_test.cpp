@@ -40,7 +40,7 @@ class FineRig {
  public:
   explicit FineRig(Vec3 gravity = {})
       : laws_(sand_on_sand(rig_), {"sand"}, k_coarse),
-        steps_(time_steps(rig_.setup, rig_.bodies, laws_.all(), rig_.diameters)),
+        steps_(time_steps(rig_.setup, rig_.bodies, laws_.all(), rig_.diameters, 0.0)),
         gravity_{gravity.x, gravity.y, gravity.z, 0.0} {
     for (int d = 0; d < 3; ++d) images_.half[d] = 1e300;
   }

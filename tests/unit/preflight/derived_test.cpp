@@ -68,6 +68,15 @@ TEST_CASE("the expected speed shall be that of bodies and the fall through the d
   CHECK(preflight::derive(setup, fakes()).steps.expected_speed == 1.5);
 }
 
+TEST_CASE("steps shall follow from how fast grains are let in") {
+  const auto speed = [](const std::string& velocity) {
+    const auto setup = read(transfer_point(), {{"emitters.feed.velocity", velocity}}).setup;
+    return preflight::derive(setup, fakes()).steps.expected_speed;
+  };
+  CHECK(speed("[12, 0, -16 m/s]") == 20.0);
+  CHECK(speed("[0.7, 0, 0 m/s]") == 0.8);  // the belt
+}
+
 TEST_CASE("ratios and the rate of grains shall follow from the scenario") {
   const auto setup = read(transfer_point()).setup;
   const auto derived = preflight::derive(setup, fakes());

@@ -96,9 +96,15 @@ TEST_CASE("two runs shall stand side by side in text and on a page") {
   CHECK(holds(text, "+0.01"));
   CHECK(holds(text, "+3.4"));  // 0.01 over sqrt(2) 0.0021
   CHECK(holds(text, "bit for bit"));
+  // What is the same to the last bit is of one seed.
+  CHECK_FALSE(holds(text, dust::report::k_errors_of_one_run));
+  auto of_another_seed = comparison;
+  of_another_seed.is_same_state = false;
+  CHECK(holds(comparison_text(of_another_seed), dust::report::k_errors_of_one_run));
 
   const std::string page = page_of(first, second);
   const json data = page_data(page);
+  CHECK(data["errors_of_one_run"] == dust::report::k_errors_of_one_run);
   CHECK(data["scenario"][0]["path"] == "bodies.belt.speed");
   CHECK(data["runs"][0]["grains"]["frames"].size() == 3);
   CHECK(data["runs"][1]["air"]["frames"].size() == 3);

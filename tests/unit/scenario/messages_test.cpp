@@ -464,9 +464,18 @@ TEST_CASE("a domain or steps that contradict each other shall be told") {
 }
 
 TEST_CASE("an account that a run cannot keep shall be told with what to change") {
-  check("gravity: [0, 0, -9.81]\n", "gravity: [0, 0, -9.81]\naudit: {energy: true}\n",
-        "s.yaml:4:17: error: audit.energy: grains on finer time steps exchange impulses that the "
-        "account of a step does not hold; give `time: {rates: single}` or leave the account out");
+  const auto problems_with = [](const std::string& diameters) {
+    const Folder folder;
+    const std::string audited = changed(k_small, "gravity: [0, 0, -9.81]\n",
+                                        "gravity: [0, 0, -9.81]\naudit: {energy: true}\n");
+    return joined(problems(folder.write("s.yaml", changed(audited, "[300, 500 um]", diameters))));
+  };
+  CHECK(problems_with("[300, 500 um]") == "");
+  CHECK(problems_with("[30, 500 um]")
+            .starts_with("s.yaml:4:17: error: audit.energy: grains of 30 um, below an eighth of "
+                         "the largest, step at rates of their own and exchange impulses that the "
+                         "account of a step does not hold; give `time: {rates: single}` or leave "
+                         "the account out"));
   check("gravity: [0, 0, -9.81]\n", "gravity: [0, 0, -9.81]\naudit: {enrgy: true}\n",
         "s.yaml:4:9: error: unknown key 'enrgy' in audit; did you mean 'energy'?");
 }

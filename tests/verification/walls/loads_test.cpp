@@ -14,6 +14,20 @@ namespace {
 
 constexpr double k_diameter = 1e-3;
 
+/// Grains that lie on a belt of this speed, which slide for 2 U / (7 mu g).
+struct OnBelt : WallRig {
+  OnBelt(double friction, double speed) : WallRig(0.3, friction, k_diameter) {
+    setup.gravity = {0, 0, -k_g};
+    body("conveyor",
+         {{"head", Vec3{0.2, 0, -0.01}}, {"tail", Vec3{-0.2, 0, -0.01}}, {"radius", 0.01}},
+         motion("belt", {{"speed", speed}}));
+    options.records_wall_loads = true;
+  }
+  [[nodiscard]] NewGrain at(double x) const {
+    return {.position = {x, 0, 0.5 * k_diameter - resting_overlap()}, .diameter = k_diameter};
+  }
+};
+
 }  // namespace
 
 TEST_CASE("a wall shall carry the weight of what rests on it, at its place") {
@@ -108,15 +122,9 @@ TEST_CASE("a belt that takes a grain along shall spend what the grain gains and 
   // Sliding all the time: power = mu m g U, half of it lost while the speeds differ.
   constexpr double mu = 0.3;
   constexpr double speed = 1.0;
-  WallRig rig(0.3, mu, k_diameter);
-  rig.setup.gravity = {0, 0, -k_g};
-  rig.body("conveyor",
-           {{"head", Vec3{0.2, 0, -0.01}}, {"tail", Vec3{-0.2, 0, -0.01}}, {"radius", 0.01}},
-           rig.motion("belt", {{"speed", speed}}));
-  rig.options.records_wall_loads = true;
+  OnBelt rig(mu, speed);
   auto dem = rig.make();
-  dem->insert(std::vector<NewGrain>{
-      {.position = {0, 0, 0.5 * k_diameter - rig.resting_overlap()}, .diameter = k_diameter}});
+  dem->insert(std::vector<NewGrain>{rig.at(0)});
   Stepper stepper(*dem);
   // Slip ends at t = 2 U / (7 mu g) = 97 ms.
   while (stepper.time() < 0.06) stepper.step();
@@ -164,16 +172,10 @@ TEST_CASE("an impact that slides shall tell its whole work, however seldom it is
 TEST_CASE("grains that slide on a belt shall tell their weight times the way they slide") {
   constexpr double mu = 0.3;
   constexpr double speed = 1.0;
-  WallRig rig(0.3, mu, k_diameter);
-  rig.setup.gravity = {0, 0, -k_g};
-  rig.body("conveyor",
-           {{"head", Vec3{0.2, 0, -0.01}}, {"tail", Vec3{-0.2, 0, -0.01}}, {"radius", 0.01}},
-           rig.motion("belt", {{"speed", speed}}));
-  rig.options.records_wall_loads = rig.options.records_wall_sliding = true;
+  OnBelt rig(mu, speed);
+  rig.options.records_wall_sliding = true;
   auto dem = rig.make();
-  const double rest = 0.5 * k_diameter - rig.resting_overlap();
-  dem->insert(std::vector<NewGrain>{{.position = {0, 0, rest}, .diameter = k_diameter},
-                                    {.position = {-0.1, 0, rest}, .diameter = k_diameter}});
+  dem->insert(std::vector<NewGrain>{rig.at(0), rig.at(-0.1)});
   Stepper stepper(*dem);
   while (stepper.time() < 0.06) stepper.step();
   const double time = stepper.time();

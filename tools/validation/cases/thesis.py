@@ -133,9 +133,10 @@ def left(runs):
     missing = {run.name: run for run in one_of_each((run for run in runs if not runs.is_done(run)), PLAN)}
     hours = {name: runs.engine.hours(run.plan) if runs.engine else None for name, run in missing.items()}
     spent = sum(run.summary["cpu_s"] if run.is_finished() else runs.kept.cpu_s(run) for run in one_of_each(filter(runs.is_done, runs), PLAN)) / 3600
-    within = campaign_list.within_budget(hours, spent, campaign_list.patterns())
-    out = ["## What has not been run", "", f"The runs above took {spent:.3g} hours of one core of the campaign's budget of "
-           f"{campaign_list.BUDGET_HOURS:g} (40 of two cores); costs are what `engine check` expects of this machine.", ""]
+    experiments = Kept(FOLDER / "experiments.md").hours({run.name for run in runs})
+    within = campaign_list.within_budget(hours, spent + experiments, campaign_list.patterns())
+    out = ["## What has not been run", "", f"The runs above took {spent:.3g} hours of one core, the experiments to what is worse {experiments:.3g} "
+           f"more, of the campaign's budget of {campaign_list.BUDGET_HOURS:g} (40 of two cores); costs are what `engine check` expects of this machine.", ""]
     for title, names in (("Within the budget, in the campaign's order", within),
                          ("Beyond the budget", sorted(missing.keys() - set(within), key=list(missing).index))):
         total = sum(hours[name] or 0.0 for name in names)
