@@ -46,8 +46,7 @@ const ParameterSchema& TimeBlock::schema() {
         .optional();
     s.number(&TimeBlock::expected_speed, "expected_speed", dimension::velocity,
              "Largest approach speed of grains, for their steps; 0 takes that of the fastest body, "
-             "or of "
-             "the fastest grain as it is let in, at least 0.5 m/s.")
+             "or of the fastest grain as it is let in, at least 0.5 m/s.")
         .at_least(0)
         .optional();
     s.text(&TimeBlock::rates, "rates",
