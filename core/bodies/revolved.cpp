@@ -87,13 +87,13 @@ Revolved::Foot Revolved::foot_of(double r, double z) const {
 void Revolved::touch(int part, const ClosestPoints& spheres) const {
   for (std::size_t n = 0; n < spheres.count; ++n) {
     const Vec3 centre{spheres.x[n], spheres.y[n], spheres.z[n]};
-    spheres.put(n, has_faces_ ? Revolved::contact(part, centre, spheres.reach[n])
-                              : Revolved::nearest(centre));
+    spheres.put(n, faces_.empty() ? Revolved::nearest(centre)
+                                  : Revolved::contact(part, centre, spheres.reach[n]));
   }
 }
 
 bool Revolved::is_unchanged_by_turning(Vec3 point, Vec3 axis) const {
-  if (has_faces_) return false;
+  if (!faces_.empty()) return false;
   const Vec3 off = point - base_;
   const Vec3 across = off - dot(off, axis_) * axis_;
   double largest = 0.0;

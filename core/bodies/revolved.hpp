@@ -20,14 +20,14 @@ struct ProfilePoint {
 ///
 /// A sphere wider than a hole lies on it all round, where no one point is nearest for long: the
 /// nearest jumps from side to side as the sphere's centre crosses the axis. For a run with such
-/// spheres the inside of the hole is k_faces flat faces, each of which a sphere touches by itself.
+/// spheres the inside of the hole is 24 flat faces, each of which a sphere touches by itself.
 class Revolved : public Shape {
  public:
   Revolved(sdk::Vec3 base, sdk::Vec3 axis, std::vector<ProfilePoint> profile);
 
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point) const override;
   void expect_spheres(double largest_radius) override;
-  [[nodiscard]] int parts() const override { return has_faces_ ? 1 + k_faces : 1; }
+  [[nodiscard]] int parts() const override { return 1 + static_cast<int>(faces_.size()); }
   [[nodiscard]] SurfacePoint contact(int part, sdk::Vec3 point, double reach) const override;
   void touch(int part, const ClosestPoints& spheres) const override;
   [[nodiscard]] bool is_within(int part, sdk::Vec3 point, double reach) const override;
@@ -40,8 +40,6 @@ class Revolved : public Shape {
   [[nodiscard]] bool is_unchanged_by_turning(sdk::Vec3 point, sdk::Vec3 axis) const override;
 
  private:
-  /// Folds of 15 degrees.
-  static constexpr int k_faces = 24;
   struct Edge {
     ProfilePoint from, to;
     double along_r = 0.0, along_z = 0.0;  ///< unit vector
@@ -67,14 +65,21 @@ class Revolved : public Shape {
   [[nodiscard]] Place place_of(sdk::Vec3 point) const;
   [[nodiscard]] Foot foot_of(double r, double z) const;
   [[nodiscard]] bool is_in_hole(const Foot& foot, double r, double z) const;
-  [[nodiscard]] SurfacePoint contact_of_face(int face, const Place& place) const;
-  [[nodiscard]] sdk::Vec3 face_direction(int face) const;
+  /// A flat face of the hole.
+  struct Face {
+    sdk::Vec3 direction;  ///< unit, from the axis to its middle
+    sdk::Vec3 sideways;   ///< unit, along its width
+  };
+  [[nodiscard]] const Face& face_of(int part) const {
+    return faces_[static_cast<std::size_t>(part) - 1];
+  }
+  [[nodiscard]] SurfacePoint contact_of_face(const Face& face, const Place& place) const;
 
   sdk::Vec3 base_;
   sdk::Vec3 axis_;
   sdk::Vec3 side_;  ///< unit vector across, where a point on the axis needs one
   std::vector<Edge> edges_;
-  bool has_faces_ = false;
+  std::vector<Face> faces_;                 ///< none where no sphere is wider than the hole
   double hole_min_ = 0.0, hole_max_ = 0.0;  ///< [m] radii of the hole; 0 = none
 };
 

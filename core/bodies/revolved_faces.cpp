@@ -13,16 +13,24 @@ namespace {
 using sdk::Vec3;
 
 constexpr SurfacePoint k_none{std::numeric_limits<double>::infinity(), {0, 0, 1}};
+constexpr int k_faces = 24;  ///< folds of 15 degrees
+/// Of a face, over its distance from the axis.
+const double k_half_width = std::tan(std::numbers::pi / k_faces);
 
 }  // namespace
 
 void Revolved::expect_spheres(double largest_radius) {
-  has_faces_ = false;
-  for (const Edge& e : edges_) {
-    if (!e.is_of_hole()) continue;
-    hole_min_ = std::min(e.from.r, e.to.r);
-    hole_max_ = std::max(e.from.r, e.to.r);
-    has_faces_ = largest_radius > hole_min_;
+  faces_.clear();
+  const auto wall =
+      std::find_if(edges_.begin(), edges_.end(), [](const Edge& e) { return e.is_of_hole(); });
+  if (wall == edges_.end()) return;
+  hole_min_ = std::min(wall->from.r, wall->to.r);
+  hole_max_ = std::max(wall->from.r, wall->to.r);
+  if (!(largest_radius > hole_min_)) return;
+  for (int n = 0; n < k_faces; ++n) {
+    const double angle = 2.0 * std::numbers::pi * n / k_faces;
+    const Vec3 direction = std::cos(angle) * side_ + std::sin(angle) * cross(axis_, side_);
+    faces_.push_back({direction, cross(axis_, direction)});
   }
 }
 
@@ -40,30 +48,24 @@ bool Revolved::is_in_hole(const Foot& foot, double r, double z) const {
   });
 }
 
-Vec3 Revolved::face_direction(int face) const {
-  const double angle = 2.0 * std::numbers::pi * face / k_faces;
-  return std::cos(angle) * side_ + std::sin(angle) * cross(axis_, side_);
-}
-
 /// A face touches the circle in its middle. The sphere touches it where it is nearest, if that is
 /// between the folds to the next faces.
-SurfacePoint Revolved::contact_of_face(int face, const Place& place) const {
-  const Vec3 direction = face_direction(face);
-  const double along = dot(place.across, direction);
-  const double aside = dot(place.across, cross(axis_, direction));
+SurfacePoint Revolved::contact_of_face(const Face& face, const Place& place) const {
+  const double along = dot(place.across, face.direction);
+  const double aside = dot(place.across, face.sideways);
   const Foot foot = foot_of(along, place.z);
   if (!is_in_hole(foot, along, place.z)) return k_none;
   const double r = along - foot.distance * foot.normal_r;
-  if (std::abs(aside) > r * std::tan(std::numbers::pi / k_faces)) return k_none;
-  return {foot.distance, foot.normal_r * direction + foot.normal_z * axis_};
+  if (std::abs(aside) > k_half_width * r) return k_none;
+  return {foot.distance, foot.normal_r * face.direction + foot.normal_z * axis_};
 }
 
 SurfacePoint Revolved::contact(int part, Vec3 point, double) const {
-  if (!has_faces_) return nearest(point);
+  if (faces_.empty()) return nearest(point);
   const Place place = place_of(point);
   const Foot foot = foot_of(place.r, place.z);
   const bool is_of_faces = is_in_hole(foot, place.r, place.z);
-  if (part > 0) return is_of_faces ? contact_of_face(part - 1, place) : k_none;
+  if (part > 0) return is_of_faces ? contact_of_face(face_of(part), place) : k_none;
   if (is_of_faces) return k_none;
   return {foot.distance, foot.normal_r * place.outward + foot.normal_z * axis_};
 }
@@ -72,10 +74,9 @@ bool Revolved::is_within(int part, Vec3 point, double reach) const {
   if (!(nearest(point).distance < reach)) return false;
   if (part == 0) return true;
   const Place place = place_of(point);
-  const Vec3 direction = face_direction(part - 1);
-  const double half_width = hole_max_ * std::tan(std::numbers::pi / k_faces);
-  return hole_min_ - dot(place.across, direction) < reach &&
-         std::abs(dot(place.across, cross(axis_, direction))) - half_width < reach;
+  const Face& face = face_of(part);
+  return hole_min_ - dot(place.across, face.direction) < reach &&
+         std::abs(dot(place.across, face.sideways)) - k_half_width * hole_max_ < reach;
 }
 
 }  // namespace dust::bodies

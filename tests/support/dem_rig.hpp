@@ -118,8 +118,9 @@ struct DemRig {
   /// Takes the laws.
   std::unique_ptr<particles::Dem> make() {
     if (has_fluid) setup.fluid.emplace();
+    const auto largest = std::max_element(diameters.begin(), diameters.end());
     for (bodies::Body& body : bodies) {
-      body.shape->expect_spheres(0.5 * *std::max_element(diameters.begin(), diameters.end()));
+      if (largest != diameters.end()) body.shape->expect_spheres(0.5 * *largest);
     }
     return std::make_unique<particles::Dem>(setup, bodies, std::move(laws), diameters, options);
   }
