@@ -26,8 +26,13 @@ double box_distance2(Vec3 low, Vec3 high, Vec3 p) {
 
 Mesh::Mesh(const std::vector<Vec3>& corners, Sides sides)
     : sides_(sides), surface_(connect_triangles(corners)) {
-  divide_into_parts(surface_, sides == Sides::both);
-  trees_.resize(static_cast<std::size_t>(surface_.parts));
+  expect_spheres(0.0);
+}
+
+void Mesh::expect_spheres(double largest_radius) {
+  divide_into_parts(surface_, largest_radius, sides_ == Sides::both);
+  order_.clear();
+  trees_.assign(static_cast<std::size_t>(surface_.parts), {});
   grow_trees();
 }
 

@@ -15,7 +15,7 @@ namespace dust::bodies {
 /// A surface of triangles with an exact nearest point. It is cut into parts along edges where it
 /// folds towards the grains, so that a sphere in a corner touches each side of it, while on a part
 /// it touches once: nothing is counted twice at edges between triangles, and a sphere rolls over
-/// them as over one face.
+/// them as over one face. Hollows narrower than the spheres are cut into strips.
 class Mesh {
  public:
   enum class Sides {
@@ -24,6 +24,8 @@ class Mesh {
   };
   /// Three corners per triangle [m], anticlockwise seen from outside.
   Mesh(const std::vector<sdk::Vec3>& corners, Sides sides);
+  /// Cuts it into the parts that spheres up to this radius [m] touch at once.
+  void expect_spheres(double largest_radius);
 
   [[nodiscard]] const MeshHealth& health() const { return surface_.health; }
   [[nodiscard]] int parts() const { return static_cast<int>(trees_.size()); }

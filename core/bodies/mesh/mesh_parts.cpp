@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bodies/mesh/narrow_hollows.hpp"
 #include "bodies/mesh/triangle_surface.hpp"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ using sdk::Vec3;
 /// Faces that meet at a smaller angle are one smooth part. A sphere that rolls through a fold of
 /// this angle still loses the touch of the first face before its foot leaves it, unless it overlaps
 /// by more than 1 / cos(angle) - 1 = 1 % of its radius.
-const double k_smooth = std::cos(8.0 * std::numbers::pi / 180.0);
+constexpr double k_smooth_angle = 8.0 * std::numbers::pi / 180.0;
+const double k_smooth = std::cos(k_smooth_angle);
 
 /// Sets of triangles that join, each with the sets it must not join.
 class Sets {
@@ -63,70 +65,153 @@ class Sets {
 
 /// Smooth faces first; then faces that meet at edges which stand out join too, the longest common
 /// edges first, as long as no fold towards the grains comes to lie inside a part.
-void find_parts(TriangleSurface& surface, bool is_sheet) {
-  Sets sets(surface.triangles.size());
-  struct Ridge {
+class PartFinder {
+ public:
+  PartFinder(TriangleSurface& surface, double largest_radius, bool is_sheet)
+      : surface_(surface),
+        is_sheet_(is_sheet),
+        hollows_(find_narrow_hollows(surface, largest_radius, is_sheet)),
+        sets_(surface.triangles.size()) {}
+
+  void find() {
+    sort_edges();
+    join_bends();
+    for (const Pair& f : folds_) sets_.keep_apart(f.a, f.b);
+    join_ridges();
+    number_parts();
+  }
+
+ private:
+  /// Triangles that meet at an edge.
+  struct Pair {
     std::int32_t a = 0, b = 0;
-    double length = 0.0;
+    bool is_narrow = false;  ///< a fold of a narrow hollow
+    double turn = 0.0;       ///< [rad] of such a fold
+    double length = 0.0;     ///< [m] of the edge
   };
-  struct Fold {
-    std::int32_t a = 0, b = 0;
-  };
-  std::vector<Ridge> ridges;
-  std::vector<Fold> folds;
-  for (const SurfaceEdge& e : surface.edges) {
-    for (std::int32_t p = e.first; p < e.last; ++p) {
-      for (std::int32_t q = p + 1; q < e.last; ++q) {
-        const std::int32_t a = surface.edge_triangles[static_cast<std::size_t>(p)];
-        const std::int32_t b = surface.edge_triangles[static_cast<std::size_t>(q)];
-        const SurfaceTriangle& s = surface.triangles[static_cast<std::size_t>(a)];
-        const SurfaceTriangle& t = surface.triangles[static_cast<std::size_t>(b)];
-        const bool is_pair = e.last - e.first == 2;
-        if (s.is_sliver || t.is_sliver || (is_pair && dot(s.normal, t.normal) >= k_smooth)) {
-          sets.join(a, b);
-          continue;
-        }
-        // The far corner of t, seen from s: before its face, the surface folds towards the grains.
-        const Vec3 from = surface.vertices[static_cast<std::size_t>(e.from)];
-        double height = 0.0;
-        for (int k = 0; k < 3; ++k) {
-          if (t.corner[k] != e.from && t.corner[k] != e.to)
-            height = dot(surface.at(t, k) - from, s.normal);
-        }
-        const double length = norm(surface.vertices[static_cast<std::size_t>(e.to)] - from);
-        if (is_sheet || height > 0.0 || !is_pair) {
-          folds.push_back({a, b});
-        } else {
-          ridges.push_back({a, b, length});
+
+  [[nodiscard]] const SurfaceTriangle& triangle(std::int32_t n) const {
+    return surface_.triangles[static_cast<std::size_t>(n)];
+  }
+
+  void sort_edges() {
+    for (std::size_t n = 0; n < surface_.edges.size(); ++n) {
+      const SurfaceEdge& e = surface_.edges[n];
+      for (std::int32_t p = e.first; p < e.last; ++p) {
+        for (std::int32_t q = p + 1; q < e.last; ++q) {
+          sort_pair(e, {.a = surface_.edge_triangles[static_cast<std::size_t>(p)],
+                        .b = surface_.edge_triangles[static_cast<std::size_t>(q)],
+                        .is_narrow = hollows_.is_fold[n],
+                        .turn = hollows_.turn[n]});
         }
       }
     }
   }
-  for (const Fold& f : folds) sets.keep_apart(f.a, f.b);
-  std::map<std::pair<std::int32_t, std::int32_t>, double> common;
-  for (const Ridge& r : ridges) {
-    const auto pair = std::minmax({sets.root(r.a), sets.root(r.b)});
-    common[{pair.first, pair.second}] += r.length;
+
+  void sort_pair(const SurfaceEdge& e, Pair pair) {
+    const SurfaceTriangle& s = triangle(pair.a);
+    const SurfaceTriangle& t = triangle(pair.b);
+    const bool is_pair = e.last - e.first == 2;
+    if (s.is_sliver || t.is_sliver || (is_pair && dot(s.normal, t.normal) >= k_smooth)) {
+      sort_smooth(pair);
+      return;
+    }
+    // The far corner of t, seen from s: before its face, the surface folds towards the grains.
+    const Vec3 from = surface_.vertices[static_cast<std::size_t>(e.from)];
+    double height = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      if (t.corner[k] != e.from && t.corner[k] != e.to)
+        height = dot(surface_.at(t, k) - from, s.normal);
+    }
+    if (is_sheet_ || height > 0.0 || !is_pair) {
+      folds_.push_back(pair);
+    } else {
+      pair.length = norm(surface_.vertices[static_cast<std::size_t>(e.to)] - from);
+      ridges_.push_back(pair);
+    }
   }
-  std::vector<std::pair<double, std::pair<std::int32_t, std::int32_t>>> longest;
-  longest.reserve(common.size());
-  for (const auto& [pair, length] : common) longest.push_back({-length, pair});
-  std::sort(longest.begin(), longest.end());
-  for (const auto& [length, pair] : longest) {
-    if (sets.may_join(pair.first, pair.second)) sets.join(pair.first, pair.second);
+
+  /// In narrow hollows a fold waits. Along a hollow its faces join, to those outside they do not.
+  void sort_smooth(const Pair& pair) {
+    const std::int32_t face = hollows_.flat_face[static_cast<std::size_t>(pair.a)];
+    const std::int32_t other = hollows_.flat_face[static_cast<std::size_t>(pair.b)];
+    if (face != other && pair.turn > 0.0) {
+      bends_.push_back(pair);
+    } else if (face == other || std::min(face, other) >= 0) {
+      sets_.join(pair.a, pair.b);
+    } else {
+      folds_.push_back(pair);
+    }
   }
-  std::map<std::int32_t, std::int32_t> number;
-  for (std::size_t n = 0; n < surface.triangles.size(); ++n) {
-    const std::int32_t set = sets.root(static_cast<std::int32_t>(n));
-    surface.triangles[n].part =
-        number.emplace(set, static_cast<std::int32_t>(number.size())).first->second;
+
+  /// Smooth hollows narrower than the largest sphere become strips, each smooth as a whole, so that
+  /// a sphere that bridges them touches them on every side. Strips, not faces: each touch adds
+  /// stiffness, and on a fine mesh that of the faces would be too much for the time step.
+  void join_bends() {
+    std::map<std::int32_t, double> turn;  // [rad] from one side of a strip to the other
+    for (const Pair& bend : bends_) {
+      const auto [a, b] = std::minmax({sets_.root(bend.a), sets_.root(bend.b)});
+      if (a == b) continue;
+      const double both = turn[a] + turn[b] + bend.turn;
+      if (both > k_smooth_angle) {
+        folds_.push_back(bend);
+        continue;
+      }
+      sets_.join(a, b);  // with the root a
+      turn[a] = both;
+    }
   }
-  surface.parts = static_cast<int>(number.size());
-}
+
+  void join_ridges() {
+    for (const Pair& f : folds_) {
+      // The rim of a hollow is touched on every side, too: it stays with the hollow.
+      if (!f.is_narrow || sets_.root(f.a) == sets_.root(f.b)) continue;
+      hollow_sets_.insert(sets_.root(f.a));
+      hollow_sets_.insert(sets_.root(f.b));
+    }
+    std::map<std::pair<std::int32_t, std::int32_t>, double> common;
+    for (const Pair& r : ridges_) {
+      const auto pair = std::minmax({sets_.root(r.a), sets_.root(r.b)});
+      if (hollow_sets_.count(pair.first) + hollow_sets_.count(pair.second) > 0) continue;
+      common[{pair.first, pair.second}] += r.length;
+    }
+    std::vector<std::pair<double, std::pair<std::int32_t, std::int32_t>>> longest;
+    longest.reserve(common.size());
+    for (const auto& [pair, length] : common) longest.push_back({-length, pair});
+    std::sort(longest.begin(), longest.end());
+    for (const auto& [length, pair] : longest) {
+      if (sets_.may_join(pair.first, pair.second)) sets_.join(pair.first, pair.second);
+    }
+  }
+
+  /// Hollows first: of parts that share an edge the first is touched there.
+  void number_parts() {
+    std::map<std::int32_t, std::int32_t> number;
+    for (const bool is_hollow : {true, false}) {
+      for (std::size_t n = 0; n < surface_.triangles.size(); ++n) {
+        const std::int32_t set = sets_.root(static_cast<std::int32_t>(n));
+        if ((hollow_sets_.count(set) > 0) == is_hollow)
+          number.emplace(set, static_cast<std::int32_t>(number.size()));
+      }
+    }
+    for (std::size_t n = 0; n < surface_.triangles.size(); ++n) {
+      surface_.triangles[n].part = number.at(sets_.root(static_cast<std::int32_t>(n)));
+    }
+    surface_.parts = static_cast<int>(number.size());
+  }
+
+  TriangleSurface& surface_;
+  bool is_sheet_;
+  NarrowHollows hollows_;
+  Sets sets_;
+  std::vector<Pair> bends_, folds_, ridges_;
+  std::set<std::int32_t> hollow_sets_;
+};
 
 void mark_borders(TriangleSurface& surface) {
   surface.vertex_is_border.assign(surface.vertices.size(), 0);
   for (SurfaceEdge& e : surface.edges) {
+    e.is_border = false;
     for (std::int32_t q = e.first; q < e.last; ++q) {
       const auto part = [&](std::int32_t place) {
         return surface
@@ -152,8 +237,8 @@ void mark_borders(TriangleSurface& surface) {
 
 }  // namespace
 
-void divide_into_parts(TriangleSurface& surface, bool is_sheet) {
-  find_parts(surface, is_sheet);
+void divide_into_parts(TriangleSurface& surface, double largest_radius, bool is_sheet) {
+  PartFinder(surface, largest_radius, is_sheet).find();
   mark_borders(surface);
 }
 

@@ -26,6 +26,9 @@ class MeshShape : public Shape {
   MeshShape(const std::vector<Vec3>& corners, Mesh::Sides sides, double thickness)
       : mesh_(corners, sides), half_(0.5 * thickness), sides_(sides) {}
 
+  void expect_spheres(double largest_radius) override {
+    mesh_.expect_spheres(largest_radius + half_);
+  }
   [[nodiscard]] SurfacePoint nearest(Vec3 point) const override {
     return thickened(mesh_.nearest(point));
   }

@@ -71,7 +71,8 @@ struct TriangleSurface {
 TriangleSurface connect_triangles(const std::vector<sdk::Vec3>& corners);
 
 /// Cuts the surface into parts where it folds towards the grains; all folds do that if grains are
-/// on both sides of a thin sheet (mesh_parts.cpp).
-void divide_into_parts(TriangleSurface& surface, bool is_sheet);
+/// on both sides of a thin sheet. Smooth hollows narrower than the largest sphere, of this radius
+/// [m], are cut too (mesh_parts.cpp).
+void divide_into_parts(TriangleSurface& surface, double largest_radius, bool is_sheet);
 
 }  // namespace dust::bodies

@@ -143,6 +143,7 @@ void EddyStress::find_distances(const bodies::BodySet& bodies, double time) {
         for (int part = 0; part < body.shape->parts(); ++part) {
           if (!body.is_within(part, centre, reach, at)) continue;
           least = std::min(least, std::max(0.0, body.nearest(centre, at).distance));
+          break;
         }
       }
       walls_.body_distance[grid_.index(i, j, k)] = least;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace {
@@ -155,6 +156,71 @@ TEST_CASE("edges that stand out shall be touched once, corners towards the grain
   // Over the end of the corner's line: both faces and their edges on the side are near.
   CHECK(contacts(corner, {0.05, 1.05, 1.05}, 0.1).size() <= 2);
   CHECK(!contacts(corner, {0.05, 1.03, 1.05}, 0.1).empty());
+}
+
+TEST_CASE("hollows of a mesh shall be touched on every side by spheres that are wider") {
+  // A plate with a hole of radius 1: folds of 15 degrees, each face a part, and of 5, two a part.
+  for (const auto& [faces, walls] : {std::pair{24, 24}, std::pair{72, 36}}) {
+    CAPTURE(faces);
+    Mesh plate(ring_mesh({{{1, -0.5}, {4, -0.5}, {4, 0}, {1, 0}}}, faces), Mesh::Sides::one);
+    const double inner = std::cos(std::numbers::pi / faces);
+    const int parts_before = plate.parts();
+    plate.expect_spheres(0.9 * inner);
+    CHECK(plate.parts() == parts_before);
+    plate.expect_spheres(1.001 * inner);
+    CHECK(plate.parts() == walls + 1);  // and all that is outside
+    const double height = std::sqrt(1.5 * 1.5 - inner * inner) - 1e-6;
+    CHECK(contacts(plate, {0, 0, height}, 1.5).size() == static_cast<std::size_t>(walls));
+    // Off the middle by 0.02 the far side is 0.03 farther away.
+    const auto near = contacts(plate, {0.02, 0, height}, 1.5);
+    CHECK(near.size() >= static_cast<std::size_t>(walls / 2 - 1));
+    CHECK(near.size() <= static_cast<std::size_t>(walls / 2 + 2));
+    CHECK(contacts(plate, {2, 0, 1.49}, 1.5).size() == 1);
+    plate.expect_spheres(0.5);
+    CHECK(plate.parts() == parts_before);
+  }
+}
+
+TEST_CASE("a slot of a mesh shall be touched at both rims by spheres that are wider") {
+  // A square ring turned by 45 degrees, drawn out along y: 1 wide, 8 long.
+  Corners c = ring_mesh({{{1, -0.5}, {4, -0.5}, {4, 0}, {1, 0}}}, 4);
+  const double half = std::sqrt(0.5);
+  for (Vec3& p : c) p = {half * half * (p.x - p.y), 8 * half * half * (p.x + p.y), p.z};
+  Mesh plate(c, Mesh::Sides::one);
+  REQUIRE(plate.health().is_closed());
+  REQUIRE(plate.health().inside_out == 0);
+  const Vec3 over{0, 0.3, std::sqrt(0.7 * 0.7 - 0.5 * 0.5)};
+  plate.expect_spheres(0.7);
+  const auto both = contacts(plate, over, 0.701);
+  REQUIRE(both.size() == 2);
+  CHECK(both[0].normal.x == approx(-both[1].normal.x).epsilon(1e-12));
+  CHECK(both[0].normal.z == approx(over.z / 0.7).epsilon(1e-12));
+  CHECK(contacts(plate, {0, 0.3, 0.701}, 0.5).empty());
+  plate.expect_spheres(0.45);
+  CHECK(plate.parts() == Mesh(c, Mesh::Sides::one).parts());
+}
+
+TEST_CASE("a gentle bend, or one that stands out, shall stay one part for spheres of any size") {
+  const Corners tube = ring_mesh({{{5, 0}, {6, 0}, {6, 20}, {5, 20}}}, 72);
+  Mesh mesh(tube, Mesh::Sides::one);
+  mesh.expect_spheres(4.5);
+  CHECK(mesh.parts() == 1);
+  Mesh ball(torus_mesh(10, 6, 90, 60), Mesh::Sides::one);
+  ball.expect_spheres(3.0);  // its hole is 4 in radius
+  CHECK(ball.parts() == 1);
+}
+
+TEST_CASE("a hole with a rounded rim shall be touched on every side by spheres that are wider") {
+  constexpr double k_radius = 5.0;
+  Mesh ring(torus_mesh(10, 6, 90, 60), Mesh::Sides::one);  // a hole of 4
+  ring.expect_spheres(k_radius);
+  const Vec3 middle{0, 0, std::sqrt((6 + k_radius) * (6 + k_radius) - 100.0)};
+  // Flat faces lie a little inside the torus.
+  const auto all = contacts(ring, middle, 1.01 * k_radius);
+  CHECK(all.size() >= 30);
+  Vec3 sum;
+  for (const SurfacePoint& s : all) sum += s.normal;
+  CHECK(std::hypot(sum.x, sum.y) < 0.02 * sum.z);
 }
 
 TEST_CASE("a vessel shall be touched on each wall of its corners and once at its rim") {

@@ -3,6 +3,7 @@
 
 #include "dust/sdk/vec3.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -64,26 +65,44 @@ inline Corners torus_mesh(double large, double small, int round, int across) {
   return c;
 }
 
-/// An L-shaped solid, extruded along y: floor of height 1 for x < 2, wall up to z = 2 for x < 0.
-inline Corners corner_mesh() {
-  const double outline[6][2] = {{-1, 0}, {2, 0}, {2, 1}, {0, 1}, {0, 2}, {-1, 2}};
-  Corners c;
-  const auto at = [&](int n, double y) {
-    return sdk::Vec3{outline[n % 6][0], y, outline[n % 6][1]};
+/// A ring round z of flat faces: its section in r and z goes round clockwise, as r points to the
+/// right and z up.
+inline Corners ring_mesh(const std::vector<std::array<double, 2>>& section, int faces) {
+  const auto at = [&](const std::array<double, 2>& p, int n) {
+    const double a = 2 * std::numbers::pi * (n % faces) / faces;
+    return sdk::Vec3{p[0] * std::cos(a), p[0] * std::sin(a), p[1]};
   };
-  for (int n = 0; n < 6; ++n) add_quad(c, at(n, -1), at(n + 1, -1), at(n + 1, 1), at(n, 1));
-  for (const double y : {-1.0, 1.0}) {
-    const int faces[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
-    for (const auto& f : faces) {
-      if (y < 0) {
-        c.insert(c.end(), {at(f[0], y), at(f[2], y), at(f[1], y)});
-      } else {
-        c.insert(c.end(), {at(f[0], y), at(f[1], y), at(f[2], y)});
-      }
+  Corners c;
+  for (int n = 0; n < faces; ++n) {
+    for (std::size_t e = 0; e < section.size(); ++e) {
+      const auto& p = section[e];
+      const auto& q = section[(e + 1) % section.size()];
+      add_quad(c, at(p, n), at(p, n + 1), at(q, n + 1), at(q, n));
     }
   }
-  for (std::size_t n = 0; n + 2 < c.size(); n += 3) std::swap(c[n], c[n + 1]);
   return c;
+}
+
+/// A solid whose section in x and z, clockwise and seen whole from its first point, goes along y.
+inline Corners extruded_mesh(const std::vector<std::array<double, 2>>& section, double from,
+                             double to) {
+  const std::size_t count = section.size();
+  const auto at = [&](std::size_t n, double y) {
+    return sdk::Vec3{section[n % count][0], y, section[n % count][1]};
+  };
+  Corners c;
+  for (std::size_t n = 0; n < count; ++n)
+    add_quad(c, at(n, from), at(n + 1, from), at(n + 1, to), at(n, to));
+  for (std::size_t n = 1; n + 1 < count; ++n) {
+    c.insert(c.end(), {at(0, from), at(n + 1, from), at(n, from)});
+    c.insert(c.end(), {at(0, to), at(n, to), at(n + 1, to)});
+  }
+  return c;
+}
+
+/// An L-shaped solid: floor of height 1 for x < 2, wall up to z = 2 for x < 0.
+inline Corners corner_mesh() {
+  return extruded_mesh({{{-1, 0}, {-1, 2}, {0, 2}, {0, 1}, {2, 1}, {2, 0}}}, -1, 1);
 }
 
 inline std::string write_binary_stl(const std::filesystem::path& file, const Corners& corners) {

@@ -60,4 +60,30 @@ struct WallRig : DemRig {
   }
 };
 
+/// A grain among walls, and the steps that it makes.
+struct SingleGrain {
+  WallRig rig;
+  std::unique_ptr<particles::Dem> dem;
+  std::unique_ptr<Stepper> stepper;
+
+  SingleGrain(double half_width, double restitution, double friction, double diameter,
+              double rolling = -1.0, double gravity = k_g)
+      : rig(restitution, friction, diameter, rolling) {
+    rig.setup.domain.min = {-half_width, -half_width, -half_width};
+    rig.setup.domain.max = {half_width, half_width, half_width};
+    rig.setup.gravity = {0, 0, -gravity};
+  }
+  /// Once its walls stand.
+  void begin(particles::NewGrain grain) {
+    dem = rig.make();
+    grain.diameter = rig.diameters[0];
+    dem->insert(std::vector<particles::NewGrain>{grain});
+    stepper = std::make_unique<Stepper>(*dem);
+  }
+  void until(double time) {
+    while (stepper->time() < time) stepper->step();
+  }
+  GrainState now() { return grain(*dem, 0); }
+};
+
 }  // namespace dust::test
