@@ -48,7 +48,7 @@ Revolved::Foot Revolved::foot_of(double r, double z) const {
   double off_r = 0.0;
   double off_z = 0.0;
   bool is_inside = true;
-  bool is_on_face = false;
+  const ProfilePoint* corner = nullptr;
   for (const Edge& e : edges_) {
     const double dr = r - e.from.r;
     const double dz = z - e.from.z;
@@ -71,17 +71,17 @@ Revolved::Foot Revolved::foot_of(double r, double z) const {
     nearest2 = d2;
     off_r = a, off_z = b;
     face = &e;
-    is_on_face = s == t;
+    corner = s == t ? nullptr : (s < t ? &e.from : &e.to);
   }
-  if (is_inside || is_on_face) {
+  if (is_inside || corner == nullptr) {
     // On a face the normal is the face's own, to the last bit.
     const double distance =
         is_inside ? deepest
                   : (r - face->from.r) * face->along_z - (z - face->from.z) * face->along_r;
-    return {distance, face->along_z, -face->along_r, face, false};
+    return {distance, face->along_z, -face->along_r, face, nullptr};
   }
   const double d = std::sqrt(nearest2);
-  return {d, off_r / d, off_z / d, face, true};
+  return {d, off_r / d, off_z / d, face, corner};
 }
 
 void Revolved::touch(int part, const ClosestPoints& spheres) const {

@@ -60,11 +60,11 @@ class Revolved : public Shape {
     double distance = 0.0;                  ///< [m] negative inside
     double normal_r = 0.0, normal_z = 0.0;  ///< [-]
     const Edge* edge = nullptr;
-    bool is_corner = false;
+    const ProfilePoint* corner = nullptr;  ///< an end of the edge; null on its face
   };
   [[nodiscard]] Place place_of(sdk::Vec3 point) const;
   [[nodiscard]] Foot foot_of(double r, double z) const;
-  [[nodiscard]] bool is_in_hole(const Foot& foot, double r, double z) const;
+  [[nodiscard]] bool is_in_hole(const Foot& foot) const;
   /// A flat face of the hole.
   struct Face {
     sdk::Vec3 direction;  ///< unit, from the axis to its middle

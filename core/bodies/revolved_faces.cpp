@@ -35,16 +35,14 @@ void Revolved::expect_spheres(double largest_radius) {
 }
 
 /// Where the nearest point is on the wall of the hole or on its rim.
-bool Revolved::is_in_hole(const Foot& foot, double r, double z) const {
+bool Revolved::is_in_hole(const Foot& foot) const {
   if (foot.edge->is_of_hole()) return true;
-  if (!foot.is_corner) return false;
-  const ProfilePoint corner{r - foot.distance * foot.normal_r, z - foot.distance * foot.normal_z};
-  const double near = 1e-9 * hole_max_;
-  const auto is_at = [&](ProfilePoint p) {
-    return std::abs(p.r - corner.r) <= near && std::abs(p.z - corner.z) <= near;
+  if (foot.corner == nullptr) return false;
+  const auto is_corner = [&](ProfilePoint p) {
+    return p.r == foot.corner->r && p.z == foot.corner->z;
   };
   return std::any_of(edges_.begin(), edges_.end(), [&](const Edge& e) {
-    return e.is_of_hole() && (is_at(e.from) || is_at(e.to));
+    return e.is_of_hole() && (is_corner(e.from) || is_corner(e.to));
   });
 }
 
@@ -54,7 +52,7 @@ SurfacePoint Revolved::contact_of_face(const Face& face, const Place& place) con
   const double along = dot(place.across, face.direction);
   const double aside = dot(place.across, face.sideways);
   const Foot foot = foot_of(along, place.z);
-  if (!is_in_hole(foot, along, place.z)) return k_none;
+  if (!is_in_hole(foot)) return k_none;
   const double r = along - foot.distance * foot.normal_r;
   if (std::abs(aside) > k_half_width * r) return k_none;
   return {foot.distance, foot.normal_r * face.direction + foot.normal_z * axis_};
@@ -64,7 +62,7 @@ SurfacePoint Revolved::contact(int part, Vec3 point, double) const {
   if (faces_.empty()) return nearest(point);
   const Place place = place_of(point);
   const Foot foot = foot_of(place.r, place.z);
-  const bool is_of_faces = is_in_hole(foot, place.r, place.z);
+  const bool is_of_faces = is_in_hole(foot);
   if (part > 0) return is_of_faces ? contact_of_face(face_of(part), place) : k_none;
   if (is_of_faces) return k_none;
   return {foot.distance, foot.normal_r * place.outward + foot.normal_z * axis_};

@@ -62,7 +62,7 @@ void write_comparison(const Comparison& comparison, const std::filesystem::path&
 inline constexpr const char* k_errors_of_one_run =
     "Errors are those of each run's own means in time. What chance does before them, as how a heap "
     "happens to be packed, is in none: of runs that differ by the seed alone some figures differ "
-    "by more. A study with replicates tells how much.";
+    "by more. A study of both with `replicates: 5` tells how much (engine study).";
 
 /// All that the page of a comparison shows.
 [[nodiscard]] nlohmann::json comparison_document(const Comparison& comparison,
