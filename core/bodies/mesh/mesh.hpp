@@ -24,8 +24,12 @@ class Mesh {
   };
   /// Three corners per triangle [m], anticlockwise seen from outside.
   Mesh(const std::vector<sdk::Vec3>& corners, Sides sides);
-  /// Cuts it into the parts that spheres up to this radius [m] touch at once.
+  /// Cuts it into the parts that spheres up to this radius [m] touch at once. Lists ask every part
+  /// about every sphere: where hollows would add more than k_max_strips parts, they stay uncut.
   void expect_spheres(double largest_radius);
+  static constexpr int k_max_strips = 250;
+  /// Parts that uncut hollows would add; 0 where all are cut.
+  [[nodiscard]] int uncut_strips() const { return uncut_strips_; }
 
   [[nodiscard]] const MeshHealth& health() const { return surface_.health; }
   [[nodiscard]] int parts() const { return static_cast<int>(trees_.size()); }
@@ -72,6 +76,7 @@ class Mesh {
   TriangleSurface surface_;
   std::vector<std::int32_t> order_;  ///< triangles by part and tree
   std::vector<Tree> trees_;          ///< one per part
+  int uncut_strips_ = 0;
 };
 
 /// The corners of the triangles of an STL file, binary or text, in the file's own unit. Throws a

@@ -86,7 +86,7 @@ class PartFinder {
   struct Pair {
     std::int32_t a = 0, b = 0;
     bool is_narrow = false;  ///< a fold of a narrow hollow
-    double turn = 0.0;       ///< [rad] of such a fold
+    double turn = 0.0;       ///< [rad] of a fold towards the grains
     double length = 0.0;     ///< [m] of the edge
   };
 

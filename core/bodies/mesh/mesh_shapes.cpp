@@ -155,6 +155,13 @@ class StlMesh final : public MeshShape {
                   " parts that a grain can touch at once; edges " +
                   base::length_text(h.shortest_edge) + " to " + base::length_text(h.longest_edge) +
                   ", median " + base::length_text(h.median_edge));
+    if (mesh_.uncut_strips() > 0) {
+      all.push_back(file_ + ": hollows narrower than the largest grain would be " +
+                    std::to_string(mesh_.uncut_strips()) + " parts, more than " +
+                    std::to_string(Mesh::k_max_strips) +
+                    ": a grain touches each at one place, and gains some energy where that jumps; "
+                    "as several meshes they are cut, which takes longer");
+    }
     return all;
   }
   [[nodiscard]] std::vector<std::string> warnings() const override {

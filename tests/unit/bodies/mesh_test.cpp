@@ -181,6 +181,26 @@ TEST_CASE("hollows of a mesh shall be touched on every side by spheres that are 
   }
 }
 
+TEST_CASE("hollows that would be too many parts shall stay one, and be told") {
+  const TemporaryFolder folder;
+  const Corners ring = ring_mesh({{{1, -0.5}, {4, -0.5}, {4, 0}, {1, 0}}}, 24);
+  for (const int holes : {20, 30}) {
+    CAPTURE(holes);
+    Corners screen;
+    for (int n = 0; n < holes; ++n) {
+      for (const Vec3& p : ring) screen.push_back(p + Vec3{10.0 * n, 0, 0});
+    }
+    const auto shape = make_shape(
+        "mesh", {{"file", write_text_stl(folder.path / "screen.stl", screen)}, {"unit", 1.0}});
+    const int uncut = shape->parts();
+    shape->expect_spheres(1.5);
+    const bool is_cut = holes * 25 - uncut <= Mesh::k_max_strips;
+    CHECK(is_cut == (holes == 20));
+    CHECK(shape->parts() == (is_cut ? holes * 25 : uncut));
+    CHECK(shape->notes().size() == (is_cut ? 1u : 2u));
+  }
+}
+
 TEST_CASE("a slot of a mesh shall be touched at both rims by spheres that are wider") {
   // A square ring turned by 45 degrees, drawn out along y: 1 wide, 8 long.
   Corners c = ring_mesh({{{1, -0.5}, {4, -0.5}, {4, 0}, {1, 0}}}, 4);
