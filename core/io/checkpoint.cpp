@@ -19,7 +19,7 @@ namespace dust::io {
 namespace {
 
 /// Raised when the meaning of what stands in a checkpoint changes.
-constexpr std::int64_t k_checkpoint_format = 7;
+constexpr std::int64_t k_checkpoint_format = 8;
 constexpr const char* k_format = "format";
 constexpr const char* k_scenario = "resolved_yaml";
 constexpr const char* k_inputs = "input_files";

@@ -32,10 +32,15 @@ Mesh::Mesh(const std::vector<Vec3>& corners, Sides sides)
 void Mesh::expect_spheres(double largest_radius) {
   const bool is_sheet = sides_ == Sides::both;
   divide_into_parts(surface_, 0.0, is_sheet);
-  const int uncut = surface_.parts;
-  divide_into_parts(surface_, largest_radius, is_sheet);
-  uncut_strips_ = surface_.parts - uncut > k_max_strips ? surface_.parts - uncut : 0;
-  if (uncut_strips_ > 0) divide_into_parts(surface_, 0.0, is_sheet);
+  uncut_strips_ = 0;
+  if (largest_radius > 0.0) {
+    const int uncut = surface_.parts;
+    divide_into_parts(surface_, largest_radius, is_sheet);
+    if (surface_.parts - uncut > k_max_strips) {
+      uncut_strips_ = surface_.parts - uncut;
+      divide_into_parts(surface_, 0.0, is_sheet);
+    }
+  }
   order_.clear();
   trees_.assign(static_cast<std::size_t>(surface_.parts), {});
   grow_trees();

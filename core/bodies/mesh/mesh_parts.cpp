@@ -131,16 +131,21 @@ class PartFinder {
     }
   }
 
-  /// In narrow hollows a fold waits. Along a hollow its faces join, to those outside they do not.
+  [[nodiscard]] bool is_bridged(std::int32_t triangle) const {
+    return hollows_.flat_face[static_cast<std::size_t>(triangle)] >= 0;
+  }
+
+  /// The folds of narrow hollows wait. Where the surface bends away from a hollow, as on a rounded
+  /// rim, the hollow ends.
   void sort_smooth(const Pair& pair) {
     const std::int32_t face = hollows_.flat_face[static_cast<std::size_t>(pair.a)];
     const std::int32_t other = hollows_.flat_face[static_cast<std::size_t>(pair.b)];
-    if (face != other && pair.turn > 0.0) {
+    if (face != other && pair.is_narrow) {
       bends_.push_back(pair);
-    } else if (face == other || std::min(face, other) >= 0) {
-      sets_.join(pair.a, pair.b);
-    } else {
+    } else if (face != other && std::min(face, other) < 0 && pair.turn == 0.0) {
       folds_.push_back(pair);
+    } else {
+      sets_.join(pair.a, pair.b);
     }
   }
 
@@ -149,17 +154,52 @@ class PartFinder {
   /// stiffness, and on a fine mesh that of the faces would be too much for the time step.
   void join_bends() {
     std::map<std::int32_t, double> turn;  // [rad] from one side of a strip to the other
+    std::vector<Pair> cuts;
     for (const Pair& bend : bends_) {
+      if (!is_bridged(bend.a) || !is_bridged(bend.b)) continue;
       const auto [a, b] = std::minmax({sets_.root(bend.a), sets_.root(bend.b)});
       if (a == b) continue;
       const double both = turn[a] + turn[b] + bend.turn;
       if (both > k_smooth_angle) {
-        folds_.push_back(bend);
+        cuts.push_back(bend);
         continue;
       }
       sets_.join(a, b);  // with the root a
       turn[a] = both;
     }
+    for (const Pair& cut : cuts) {
+      turn[sets_.root(cut.a)] = k_smooth_angle;
+      turn[sets_.root(cut.b)] = k_smooth_angle;
+    }
+    folds_.insert(folds_.end(), cuts.begin(), cuts.end());
+    join_ends_of(turn);
+  }
+
+  /// A strip that is smooth with the faces on both its sides is no hollow: a needle beside a seam.
+  void join_ends_of(std::map<std::int32_t, double>& turn) {
+    std::map<std::int32_t, std::map<std::int32_t, double>> outer;  // [rad] by strip and neighbour
+    const auto sides_of = [&](const Pair& bend) {
+      const bool is_first = is_bridged(bend.a);
+      return std::pair(sets_.root(is_first ? bend.a : bend.b),
+                       sets_.root(is_first ? bend.b : bend.a));
+    };
+    std::vector<Pair> ends;
+    for (const Pair& bend : bends_) {
+      if (is_bridged(bend.a) && is_bridged(bend.b)) continue;
+      ends.push_back(bend);
+      const auto [strip, neighbour] = sides_of(bend);
+      double& largest = outer[strip][neighbour];
+      largest = std::max(largest, bend.turn);
+    }
+    for (const auto& [strip, neighbours] : outer) {
+      for (const auto& [neighbour, fold] : neighbours) turn[strip] += fold;
+    }
+    std::vector<Pair> joined;
+    for (const Pair& end : ends) {
+      const bool is_smooth = turn[sides_of(end).first] <= k_smooth_angle;
+      (is_smooth ? joined : folds_).push_back(end);
+    }
+    for (const Pair& end : joined) sets_.join(end.a, end.b);
   }
 
   void join_ridges() {

@@ -33,11 +33,15 @@ double distance_to_segment(Vec3 p, Vec3 from, Vec3 to) {
   return norm(p - from - share * along);
 }
 
-/// Of edges of one plane that do not cross.
+/// [m] Of edges of one plane that do not cross; of those that meet, where they are farthest apart:
+/// every corner is narrow.
 double distance_between(const Border& a, const Border& b) {
-  return std::min(
-      {distance_to_segment(a.from, b.from, b.to), distance_to_segment(a.to, b.from, b.to),
-       distance_to_segment(b.from, a.from, a.to), distance_to_segment(b.to, a.from, a.to)});
+  const double from_a = distance_to_segment(a.from, b.from, b.to);
+  const double to_a = distance_to_segment(a.to, b.from, b.to);
+  const double from_b = distance_to_segment(b.from, a.from, a.to);
+  const double to_b = distance_to_segment(b.to, a.from, a.to);
+  const double nearest = std::min({from_a, to_a, from_b, to_b});
+  return nearest > 0.0 ? nearest : std::max({from_a, to_a, from_b, to_b});
 }
 
 /// Whether a sphere that touches the faces beyond both edges bridges the one between them.

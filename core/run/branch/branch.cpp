@@ -3,6 +3,7 @@
 
 #include "base/named.hpp"
 #include "base/text.hpp"
+#include "preflight/particle_models.hpp"
 #include "run/branch/air_transfer.hpp"
 #include "run/branch/past.hpp"
 #include "run/summary/plant_begin.hpp"
@@ -69,6 +70,7 @@ Models& Branch::their_models() {
   their_models_.emplace(make_models(origin().scenario().setup, registry_));
   Models& models = *their_models_;
   if (!origin().class_diameters().empty()) models.class_diameters = origin().class_diameters();
+  preflight::inform_shapes(models);
   origin().state().read({{"bodies", [&](sdk::ArchiveReader& a) {
                             const auto removed_at = a.numbers("removed_at");
                             for (std::size_t b = 0; b < models.bodies.size(); ++b) {

@@ -225,9 +225,40 @@ TEST_CASE("a gentle bend, or one that stands out, shall stay one part for sphere
   Mesh mesh(tube, Mesh::Sides::one);
   mesh.expect_spheres(4.5);
   CHECK(mesh.parts() == 1);
+  // The tip of a cone is narrow for any sphere, but the cone is not.
+  Mesh cone(ring_mesh({{{0, -1}, {11, 10}, {10, 10}, {0, 0}}}, 72), Mesh::Sides::one);
+  const int before = cone.parts();
+  cone.expect_spheres(0.01);
+  CHECK(cone.parts() == before);
+  cone.expect_spheres(16);  // touches round its base of 10 at 10 / cos 45 deg
+  CHECK(cone.parts() >= 24);
   Mesh ball(torus_mesh(10, 6, 90, 60), Mesh::Sides::one);
   ball.expect_spheres(3.0);  // its hole is 4 in radius
   CHECK(ball.parts() == 1);
+}
+
+TEST_CASE("a needle between two faces of a wide tube shall not cut it") {
+  // Regular folds of 5 degrees, beside one of them a seam: a face of 0.05 degrees.
+  std::vector<double> angles;
+  for (int n = 0; n < 72; ++n) angles.push_back(5.0 * n);
+  for (const int n : {60, 30, 10}) angles.insert(angles.begin() + n, 5.0 * n - 0.05);
+  const double section[4][2] = {{500, 0}, {510, 0}, {510, 200}, {500, 200}};
+  const auto at = [&](const double* p, std::size_t n) {
+    const double a = std::numbers::pi / 180 * angles[n % angles.size()];
+    return Vec3{p[0] * std::cos(a), p[0] * std::sin(a), p[1]};
+  };
+  Corners c;
+  for (std::size_t n = 0; n < angles.size(); ++n) {
+    for (int e = 0; e < 4; ++e) {
+      const double* p = section[e];
+      const double* q = section[(e + 1) % 4];
+      add_quad(c, at(p, n), at(p, n + 1), at(q, n + 1), at(q, n));
+    }
+  }
+  Mesh tube(c, Mesh::Sides::one);
+  REQUIRE(tube.health().is_closed());
+  tube.expect_spheres(20);
+  CHECK(tube.parts() == 1);
 }
 
 TEST_CASE("a hole with a rounded rim shall be touched on every side by spheres that are wider") {
