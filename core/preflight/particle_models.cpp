@@ -50,20 +50,21 @@ ParticleModels make_particle_models(const scenario::Setup& setup,
   ParticleModels m;
   m.bodies = make_bodies(setup, registry);
   for (const auto& spec : setup.interactions) m.laws.push_back(make_laws(setup, spec, registry));
+  std::vector<double> diameters;
   for (const auto& spec : setup.emitters) {
     m.emitters.push_back(registry.create_as<sdk::Emitter>(spec.model));
-    const auto diameters = m.emitters.back()->diameters();
-    m.class_diameters.insert(m.class_diameters.end(), diameters.begin(), diameters.end());
+    const auto own = m.emitters.back()->diameters();
+    diameters.insert(diameters.end(), own.begin(), own.end());
     m.release_speed = std::max(m.release_speed, m.emitters.back()->largest_speed());
   }
-  std::sort(m.class_diameters.begin(), m.class_diameters.end());
-  m.class_diameters.erase(std::unique(m.class_diameters.begin(), m.class_diameters.end()),
-                          m.class_diameters.end());
-  inform_shapes(m);
+  set_class_diameters(m, std::move(diameters));
   return m;
 }
 
-void inform_shapes(ParticleModels& models) {
+void set_class_diameters(ParticleModels& models, std::vector<double> diameters) {
+  std::sort(diameters.begin(), diameters.end());
+  diameters.erase(std::unique(diameters.begin(), diameters.end()), diameters.end());
+  models.class_diameters = std::move(diameters);
   if (models.class_diameters.empty()) return;
   const double largest = 0.5 * models.class_diameters.back();
   for (bodies::Body& body : models.bodies) body.shape->expect_spheres(largest);

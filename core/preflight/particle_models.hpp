@@ -22,8 +22,8 @@ struct ParticleModels {
   double release_speed = 0.0;           ///< [m/s] of the fastest grain as it is let in
 };
 
-/// The shapes of bodies get to know the largest grain; again where sizes come besides.
-void inform_shapes(ParticleModels& models);
+/// The sizes [m] that a run has, in any order; the shapes of its bodies get to know the largest.
+void set_class_diameters(ParticleModels& models, std::vector<double> diameters);
 
 ParticleModels make_particle_models(const scenario::Setup& setup,
                                     const registry::Registry& registry);

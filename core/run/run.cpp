@@ -37,12 +37,11 @@ namespace fs = std::filesystem;
 Models make_models_of(const scenario::ReadResult& read, const registry::Registry& registry,
                       const Branch* branch, const std::optional<fs::path>& resumed) {
   Models models = make_models(read.setup, registry, read.dust);
-  if (branch != nullptr) branch->add_diameters(models.class_diameters);
+  if (branch != nullptr) branch->add_diameters(models);
   if (read.start.from && resumed) {
     const io::StoredState state(*resumed / "checkpoint.h5", k_restart_remedy);
-    models.class_diameters = class_diameters_of(state);
+    preflight::set_class_diameters(models, class_diameters_of(state));
   }
-  preflight::inform_shapes(models);
   return models;
 }
 

@@ -140,6 +140,53 @@ TEST_CASE("grains shall be let in where the other run has taken a body away") {
   CHECK(check.status == 0);
 }
 
+TEST_CASE("a branch shall rest what comes along on holes that its own grains fall through") {
+  const TemporaryFolder folder;
+  // A lump of 12 mm on a hole of 10, then a grain of 2 mm in its place among the emitters.
+  const auto plate = [&](const std::string& name, const std::string& emitter) {
+    const fs::path file = folder / (name + ".yaml");
+    write_box(file, R"(bodies:
+  plate: {shape: disc, material: sand, centre: [10, 10, 10 mm], axis: [0, 0, 1], radius: 9 mm,
+          hole_radius: 5 mm, thickness: 2 mm}
+interactions:
+  - {between: [sand, sand], contact: {model: hertz_mindlin, restitution: 0.1, friction: 0.5}}
+gravity: [0, 0, -9.81]
+time: {end: 0.1 s, fluid_step: 1 ms, output_every: 50 ms}
+emitters:
+  )" + emitter);
+    return file.string();
+  };
+  const std::string large = plate("large",
+                                  "lump: {model: single, material: sand, positions: "
+                                  "[[10, 10, 16 mm]], diameters: [12 mm]}\n");
+  const std::string small = plate("small",
+                                  "grain: {model: single, material: sand, positions: "
+                                  "[[4, 4, 14 mm]], diameters: [2 mm], time: 0.15 s}\n");
+  const auto first = run(folder / "first", "0.1 s", {}, "1", large);
+  INFO(first.err);
+  REQUIRE(first.status == 0);
+  std::string from = (folder / "first").string();
+  double end = 0.1;
+  for (const std::string friction : {"0.4", "0.3"}) {
+    CAPTURE(friction);
+    const std::string setting = "interactions[0].contact.friction=" + friction;
+    end += 0.1;
+    const auto checked = engine({"check", small, "--set", "start_from=" + from, "--set", setting,
+                                 "--set", "time.end=0.3 s"});
+    INFO(checked.out << checked.err);
+    CHECK(checked.status == 0);
+    const fs::path out = folder / friction;
+    const auto branch =
+        run(out, std::to_string(end) + " s", {"start_from=" + from, setting}, "1", small);
+    INFO(branch.err);
+    REQUIRE(branch.status == 0);
+    const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
+    CHECK(summary["particles"]["in_domain"] == 2);
+    CHECK(summary["contacts"] >= 24);
+    from = out.string();
+  }
+}
+
 TEST_CASE("springs kept by the conventions of LIGGGHTS shall hold on by those of this engine") {
   const TemporaryFolder folder;
   const fs::path scenario = folder / "slope.yaml";

@@ -26,21 +26,22 @@ double box_distance2(Vec3 low, Vec3 high, Vec3 p) {
 
 Mesh::Mesh(const std::vector<Vec3>& corners, Sides sides)
     : sides_(sides), surface_(connect_triangles(corners)) {
-  expect_spheres(0.0);
+  divide(0.0);
+  uncut_parts_ = surface_.parts;
 }
 
 void Mesh::expect_spheres(double largest_radius) {
-  const bool is_sheet = sides_ == Sides::both;
-  divide_into_parts(surface_, 0.0, is_sheet);
+  if (largest_radius == largest_radius_) return;
+  largest_radius_ = largest_radius;
   uncut_strips_ = 0;
-  if (largest_radius > 0.0) {
-    const int uncut = surface_.parts;
-    divide_into_parts(surface_, largest_radius, is_sheet);
-    if (surface_.parts - uncut > k_max_strips) {
-      uncut_strips_ = surface_.parts - uncut;
-      divide_into_parts(surface_, 0.0, is_sheet);
-    }
-  }
+  divide(largest_radius);
+  if (surface_.parts - uncut_parts_ <= k_max_strips) return;
+  uncut_strips_ = surface_.parts - uncut_parts_;
+  divide(0.0);
+}
+
+void Mesh::divide(double largest_radius) {
+  divide_into_parts(surface_, largest_radius, sides_ == Sides::both);
   order_.clear();
   trees_.assign(static_cast<std::size_t>(surface_.parts), {});
   grow_trees();

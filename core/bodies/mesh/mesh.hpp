@@ -64,6 +64,7 @@ class Mesh {
   };
   using Tree = std::vector<Node>;
 
+  void divide(double largest_radius);
   void grow_trees();
   void grow(Tree& tree, std::int32_t begin, std::int32_t end);
   void descend(const Tree& tree, sdk::Vec3 point, Foot& best) const;
@@ -76,6 +77,8 @@ class Mesh {
   TriangleSurface surface_;
   std::vector<std::int32_t> order_;  ///< triangles by part and tree
   std::vector<Tree> trees_;          ///< one per part
+  double largest_radius_ = 0.0;      ///< [m] of the spheres it is cut for
+  int uncut_parts_ = 0;              ///< for spheres of any size
   int uncut_strips_ = 0;
 };
 

@@ -167,7 +167,7 @@ class PartFinder {
       sets_.join(a, b);  // with the root a
       turn[a] = both;
     }
-    for (const Pair& cut : cuts) {
+    for (const Pair& cut : cuts) {  // beside another strip, so that no end of theirs is smooth
       turn[sets_.root(cut.a)] = k_smooth_angle;
       turn[sets_.root(cut.b)] = k_smooth_angle;
     }

@@ -69,8 +69,8 @@ Models& Branch::their_models() {
   if (their_models_) return *their_models_;
   their_models_.emplace(make_models(origin().scenario().setup, registry_));
   Models& models = *their_models_;
-  if (!origin().class_diameters().empty()) models.class_diameters = origin().class_diameters();
-  preflight::inform_shapes(models);
+  if (!origin().class_diameters().empty())
+    preflight::set_class_diameters(models, origin().class_diameters());
   origin().state().read({{"bodies", [&](sdk::ArchiveReader& a) {
                             const auto removed_at = a.numbers("removed_at");
                             for (std::size_t b = 0; b < models.bodies.size(); ++b) {

@@ -41,8 +41,8 @@ class Branch {
   }
   /// What began with this run or with one that it comes from: hoods, emitters, dust.
   [[nodiscard]] const CountsBefore& before() const { return before_; }
-  /// Sizes of the particles that come along.
-  void add_diameters(std::vector<double>& class_diameters) const;
+  /// Adds the sizes of the particles that come along.
+  void add_diameters(Models& models) const;
   /// Takes away the bodies that the other run had taken away, looks for what is in the way of its
   /// particles, and tells what will begin anew.
   void check(Models& models, particles::Dem& particles);

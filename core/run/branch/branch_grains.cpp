@@ -2,6 +2,7 @@
 // What a branch does with grains, their contacts and those that are to come.
 #include "base/named.hpp"
 #include "base/text.hpp"
+#include "preflight/particle_models.hpp"
 #include "run/branch/branch.hpp"
 #include "run/branch/changed_archive.hpp"
 #include "run/insertion/entry.hpp"
@@ -45,7 +46,7 @@ std::int64_t Branch::particles_there() const {
   return count;
 }
 
-void Branch::add_diameters(std::vector<double>& diameters) const {
+void Branch::add_diameters(Models& models) const {
   std::vector<double> more = origin().class_diameters();
   if (!both_.is_same()) {
     // Sizes that none is left of shall not shorten the step.
@@ -64,9 +65,8 @@ void Branch::add_diameters(std::vector<double>& diameters) const {
                                 more.push_back(e.grain.diameter);
                             }}});
   }
-  diameters.insert(diameters.end(), more.begin(), more.end());
-  std::sort(diameters.begin(), diameters.end());
-  diameters.erase(std::unique(diameters.begin(), diameters.end()), diameters.end());
+  more.insert(more.end(), models.class_diameters.begin(), models.class_diameters.end());
+  preflight::set_class_diameters(models, std::move(more));
 }
 
 /// The other run's particles, as it had them.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/branch/preview.hpp"
 
-#include "preflight/particle_models.hpp"
 #include "run/branch/branch.hpp"
 #include "run/branch/origin.hpp"
 #include "run/folder/input_digests.hpp"
@@ -19,8 +18,7 @@ std::optional<StartFacts> preview_start(const scenario::ReadResult& read,
   }
   Branch branch(read, InputDigests().of(read), registry, diagnostics);
   Models models = make_models(read.setup, registry);
-  branch.add_diameters(models.class_diameters);
-  preflight::inform_shapes(models);
+  branch.add_diameters(models);
   const auto particles = make_particles(read.setup, models, read.dust);
   branch.check(models, *particles);
   return StartFacts{.state = branch.origin().state().file().string(),

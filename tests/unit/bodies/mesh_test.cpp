@@ -261,6 +261,30 @@ TEST_CASE("a needle between two faces of a wide tube shall not cut it") {
   CHECK(tube.parts() == 1);
 }
 
+TEST_CASE("a face with a narrow place shall stay whole where it bends gently") {
+  // Two ribs round the inside of a wide tube, 10 apart: a sphere of 6 bridges the groove between
+  // them, along which the tube bends by 5 degrees from face to face.
+  const Corners tube = ring_mesh({{{500, 0},
+                                   {510, 0},
+                                   {510, 200},
+                                   {500, 200},
+                                   {500, 120},
+                                   {480, 120},
+                                   {480, 115},
+                                   {500, 115},
+                                   {500, 105},
+                                   {480, 105},
+                                   {480, 100},
+                                   {500, 100}}},
+                                 72);
+  Mesh mesh(tube, Mesh::Sides::one);
+  REQUIRE(mesh.health().is_closed());
+  const int uncut = mesh.parts();
+  mesh.expect_spheres(6);
+  CHECK(mesh.parts() <= uncut + 3);  // the groove and the ribs beside it by themselves
+  CHECK(contacts(mesh, {495, 0, 110}, 6).size() == 3);
+}
+
 TEST_CASE("a hole with a rounded rim shall be touched on every side by spheres that are wider") {
   constexpr double k_radius = 5.0;
   Mesh ring(torus_mesh(10, 6, 90, 60), Mesh::Sides::one);  // a hole of 4

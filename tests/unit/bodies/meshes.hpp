@@ -65,8 +65,8 @@ inline Corners torus_mesh(double large, double small, int round, int across) {
   return c;
 }
 
-/// A ring round z of flat faces: its section in r and z goes round clockwise, as r points to the
-/// right and z up.
+/// A ring round z of flat faces: its section in r and z goes round anticlockwise, as r points to
+/// the right and z up.
 inline Corners ring_mesh(const std::vector<std::array<double, 2>>& section, int faces) {
   const auto at = [&](const std::array<double, 2>& p, int n) {
     const double a = 2 * std::numbers::pi * (n % faces) / faces;

@@ -25,7 +25,7 @@ TEST_CASE("the shapes of a scenario shall know its largest grain, and sizes that
   CHECK(models_with("0.32 mm").bodies[0].shape->parts() > 1);
   preflight::ParticleModels models = models_with("0.33 mm");
   CHECK(models.bodies[0].shape->parts() == 1);
-  models.class_diameters.push_back(1e-3);
-  preflight::inform_shapes(models);
+  preflight::set_class_diameters(models, {1e-3, 0.65e-3, 1e-3});
+  CHECK(models.class_diameters == std::vector<double>{0.65e-3, 1e-3});
   CHECK(models.bodies[0].shape->parts() > 1);
 }

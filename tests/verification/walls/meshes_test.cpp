@@ -103,9 +103,9 @@ TEST_CASE("an impact on a face, an edge or a point of a flat mesh shall be that 
 
 TEST_CASE("a grain in the corner of a vessel shall rest as between three walls of the domain") {
   const auto come_to_rest = [](bool is_vessel) {
-    WallRig rig(0.3, 0.4, k_diameter);
-    rig.setup.domain.min = is_vessel ? Vec3{-0.01, -0.01, -0.01} : Vec3{};
-    rig.setup.domain.max = {0.02, 0.02, 0.02};
+    SingleGrain single(0.02, 0.3, 0.4, k_diameter);
+    WallRig& rig = single.rig;
+    if (!is_vessel) rig.setup.domain.min = {};
     rig.setup.gravity = {-4, -3, -8};
     if (is_vessel) {
       rig.body("container",
@@ -113,13 +113,10 @@ TEST_CASE("a grain in the corner of a vessel shall rest as between three walls o
     } else {
       for (const int side : {0, 2, 4}) rig.wall(side, rig.sand);
     }
-    auto dem = rig.make();
-    dem->insert(std::vector<NewGrain>{
-        {.position = {1.4e-3, 1.6e-3, 1.2e-3}, .rotation = {5, 3, 1}, .diameter = k_diameter}});
-    Stepper stepper(*dem);
-    while (stepper.time() < 0.2) stepper.step();
-    CHECK(dem->report().contacts == 3);
-    return grain(*dem, 0);
+    single.begin({.position = {1.4e-3, 1.6e-3, 1.2e-3}, .rotation = {5, 3, 1}});
+    single.until(0.2);
+    CHECK(single.dem->report().contacts == 3);
+    return single.now();
   };
   const GrainState walls = come_to_rest(false);
   const GrainState vessel = come_to_rest(true);
@@ -166,10 +163,8 @@ TEST_CASE("a sphere shall slide down a funnel of triangles as down the exact one
   const TemporaryFolder folder;
   const Corners c = ring_mesh({{{5, 0}, {6, 0}, {21, 20}, {20, 20}}}, 72);
   const auto slide = [&](bool is_mesh) {
-    WallRig rig(0.2, 0.0, k_diameter);
-    rig.setup.domain.min = {-0.05, -0.05, -0.05};
-    rig.setup.domain.max = {0.05, 0.05, 0.05};
-    rig.setup.gravity = {0, 0, -k_g};
+    SingleGrain single(0.05, 0.2, 0.0, k_diameter);
+    WallRig& rig = single.rig;
     if (is_mesh) {
       rig.body("mesh", {{"file", write_text_stl(folder.path / "f.stl", c)}, {"unit", 1e-3}});
     } else {
@@ -181,13 +176,10 @@ TEST_CASE("a sphere shall slide down a funnel of triangles as down the exact one
                            {"end_radius", 0.02},
                            {"thickness", 1e-3 * 20 / 25.0}});
     }
-    auto dem = rig.make();
     // Touching the wall at z = 15 mm, on its way down the slope.
-    dem->insert(
-        std::vector<NewGrain>{{.position = {0.0145, 0.0005, 0.0151}, .diameter = k_diameter}});
-    Stepper stepper(*dem);
-    while (stepper.time() < 0.05) stepper.step();
-    return grain(*dem, 0);
+    single.begin({.position = {0.0145, 0.0005, 0.0151}});
+    single.until(0.05);
+    return single.now();
   };
   const GrainState exact = slide(false);
   const GrainState mesh = slide(true);
