@@ -8,20 +8,22 @@ namespace dust::airborne {
 namespace {
 
 constexpr double k_mean_free_path = 66e-9;     ///< [m] of air at room conditions
+constexpr double k_densest_gas = 100.0;        ///< [kg/m3] heavier ones are liquids
 constexpr double k_boltzmann = 1.380649e-23;   ///< [J/K]
 constexpr double k_room_temperature = 293.15;  ///< [K]
 constexpr int k_iterations = 60;
 
 }  // namespace
 
-double slip_correction(double diameter) {
+double slip_correction(double diameter, const Gas& gas) {
+  if (gas.density > k_densest_gas) return 1.0;
   const double knudsen = 2.0 * k_mean_free_path / diameter;
   return 1.0 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
 }
 
 double terminal_velocity(double diameter, double density, double weight, const Gas& gas) {
-  const double stokes =
-      density * diameter * diameter * weight / (18.0 * gas.viscosity) * slip_correction(diameter);
+  const double stokes = density * diameter * diameter * weight / (18.0 * gas.viscosity) *
+                        slip_correction(diameter, gas);
   // v (1 + 0.15 Re^0.687) = v_stokes: the left side grows with v, so that halving finds it.
   double low = 0.0;
   double high = stokes;
@@ -34,7 +36,7 @@ double terminal_velocity(double diameter, double density, double weight, const G
 }
 
 double brownian_diffusivity(double diameter, const Gas& gas) {
-  return k_boltzmann * k_room_temperature * slip_correction(diameter) /
+  return k_boltzmann * k_room_temperature * slip_correction(diameter, gas) /
          (3.0 * std::numbers::pi * gas.viscosity * diameter);
 }
 
@@ -43,7 +45,7 @@ DustClass make_class(double diameter, double density, sdk::Vec3 gravity, const G
   made.diameter = diameter;
   made.diffusivity = brownian_diffusivity(diameter, gas);
   made.response_time =
-      density * diameter * diameter * slip_correction(diameter) / (18.0 * gas.viscosity);
+      density * diameter * diameter * slip_correction(diameter, gas) / (18.0 * gas.viscosity);
   const double g = norm(gravity);
   if (!(g > 0.0)) return made;
   // Dust lighter than the gas rises.

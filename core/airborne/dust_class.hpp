@@ -15,10 +15,10 @@ struct Gas {
   double viscosity = 0.0;  ///< [Pa s]
 };
 
-/// Slip of a small sphere in a gas (Cunningham; fit of Allen and Raabe, J. Aerosol Sci. 13 (1982)
-/// 537): C_c = 1 + Kn (1.257 + 0.4 exp(-1.1 / Kn)), Kn = 2 lambda / d, lambda = 66 nm as in air at
-/// room conditions. `diameter` [m]; returns [-].
-[[nodiscard]] double slip_correction(double diameter);
+/// Slip of a small sphere in a gas (Cunningham; fit of Davies, Proc. Phys. Soc. 57 (1945) 259,
+/// doi:10.1088/0959-5309/57/4/301): C_c = 1 + Kn (1.257 + 0.4 exp(-1.1 / Kn)), Kn = 2 lambda / d,
+/// lambda = 66 nm as in air at room conditions. None in a liquid. `diameter` [m]; returns [-].
+[[nodiscard]] double slip_correction(double diameter, const Gas& gas);
 
 /// Terminal velocity [m/s] of a sphere that falls in a gas at rest with the drag of Schiller and
 /// Naumann (1935), C_d = 24 / Re (1 + 0.15 Re^0.687), and slip; `weight` [m/s2] is gravity less

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "airborne/dust_field.hpp"
 
+#include "airborne/cells/covered_cells.hpp"
 #include "dust/sdk/error.hpp"
 
 #include <algorithm>
@@ -131,6 +132,17 @@ void DustField::start(const fluid::CellField& volume) {
   for (Class& c : classes_) c.released = {sum_of(grid_, c.mass) * grid_.cell_volume(), 0.0};
 }
 
+void DustField::leave_covered_cells(const fluid::CellField& volume) {
+  const std::vector<std::int32_t> nearest = nearest_gas_cells(grid_, volume);
+  for (Class& c : classes_) {
+    for (std::size_t o = 0; o < nearest.size(); ++o) {
+      if (nearest[o] < 0 || static_cast<std::size_t>(nearest[o]) == o || c.mass[o] == 0.0) continue;
+      c.mass[static_cast<std::size_t>(nearest[o])] += c.mass[o];
+      c.mass[o] = 0.0;
+    }
+  }
+}
+
 void DustField::find_sources(const fluid::CellField& volume, double time, double step) {
   sources_.clear();
   for (const scenario::DustSourceSpec& source : spec_.sources) {
@@ -143,6 +155,14 @@ void DustField::find_sources(const fluid::CellField& volume, double time, double
     for (const Part& part : parts) sum += part.gas;
     for (Part& part : parts) part.gas /= sum;
   }
+}
+
+double DustField::given_by_sources(std::size_t n, double time) const {
+  double given = 0.0;
+  for (const scenario::DustSourceSpec& source : spec_.sources) {
+    given += source.mass_flow[n] * std::max(0.0, overlap(0.0, time, source.begin, source.end));
+  }
+  return given;
 }
 
 /// Fills source_ with the mean over the step; false where no source is active.

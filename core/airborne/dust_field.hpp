@@ -62,6 +62,9 @@ class DustField {
 
   /// Puts the clouds of the start into the gas, `volume` [-] of each cell.
   void start(const fluid::CellField& volume);
+  /// Bodies stand where none did: what hung in cells without gas goes to the nearest with some;
+  /// `volume` [-] of gas in each cell.
+  void leave_covered_cells(const fluid::CellField& volume);
   /// One fluid step from `time` [s], `step` [s] long. Throws sdk::ModelError for a source in no
   /// gas.
   void advance(const Flow& flow, double time, double step);
@@ -84,6 +87,9 @@ class DustField {
   /// The same without what is airborne, which would take a sum over all cells: for each step.
   [[nodiscard]] DustBalance gone(std::size_t n) const;
   [[nodiscard]] std::int64_t sub_steps() const { return sub_steps_; }
+  [[nodiscard]] bool has_sources() const { return !spec_.sources.empty(); }
+  /// [kg] of a class that its sources give until `time` [s].
+  [[nodiscard]] double given_by_sources(std::size_t n, double time) const;
   /// Do grains catch dust in this run?
   [[nodiscard]] bool has_scavenging() const { return spec_.scavenging; }
   /// Do surfaces carry along what lies on them?

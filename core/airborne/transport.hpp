@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "airborne/cells/small_cells.hpp"
 #include "airborne/dust_class.hpp"
 #include "airborne/flow.hpp"
 #include "airborne/gas_acceleration.hpp"
-#include "airborne/small_cells.hpp"
 #include "fluid/grid.hpp"
 
 #include <array>

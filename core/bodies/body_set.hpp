@@ -63,12 +63,16 @@ struct Body {
   [[nodiscard]] SurfacePoint nearest(sdk::Vec3 point, const Placement& at) const;
   /// Of a sphere at a placement, see Shape::nip_at.
   [[nodiscard]] std::string nip_at(sdk::Vec3 point, double radius, const Placement& at) const;
-  /// The same for a part, see Shape::contact, touch and is_within.
+  /// The same for a part, see Shape::contact, touch, is_within and find_within.
   [[nodiscard]] SurfacePoint contact(int part, sdk::Vec3 point, double reach,
                                      const Placement& at) const;
   void touch(int part, const ClosestPoints& spheres, const Placement& at) const;
   [[nodiscard]] bool is_within(int part, sdk::Vec3 point, double reach, const Placement& at) const {
     return shape->is_within(part, at.to_body(point), reach);
+  }
+  void find_within(sdk::Vec3 point, double reach, const Placement& at,
+                   std::vector<std::int32_t>& parts) const {
+    shape->find_within(at.to_body(point), reach, parts);
   }
   /// Velocities [m/s] of surface points at batch.time; batch.axis is not read.
   void surface_velocities(const sdk::SurfaceBatch& batch) const;

@@ -76,6 +76,8 @@ class Shape {
   [[nodiscard]] virtual bool is_within(int /*part*/, sdk::Vec3 point, double reach) const {
     return nearest(point).distance < reach;
   }
+  /// The parts of which that is so, ascending; `parts` is emptied first.
+  virtual void find_within(sdk::Vec3 point, double reach, std::vector<std::int32_t>& parts) const;
   /// Whether it has an inside, so that the air can be cut by it.
   [[nodiscard]] virtual bool is_solid() const { return true; }
   /// What to tell of it in the log, and what the user should look at.

@@ -125,7 +125,7 @@ Coupling::~Coupling() = default;
 void Coupling::use(std::span<const std::unique_ptr<sdk::FluidForce>> forces,
                    std::vector<particles::Surface> surfaces) {
   Impl& s = *impl_;
-  s.lattice.walls().use(surfaces);
+  s.lattice.use_walls(surfaces);
   if (forces.empty()) return;
   s.forces = std::make_unique<ForceModels>(forces, std::move(surfaces), s.lattice, s.drag,
                                            s.relaxation.gravity());
@@ -305,10 +305,9 @@ void Coupling::relax(FaceStencils& stencils, const particles::GrainRows& grains,
 
 double Coupling::refresh_interval() const { return impl_->schedule.interval(); }
 
-void Coupling::end_step(EvaluatedDrag drag, const particles::GrainRows& grains, double fluid_step) {
+void Coupling::end_step(EvaluatedDrag drag, const particles::GrainRows& grains) {
   Impl& s = *impl_;
   s.states.align(grains);
-  const double interval = s.schedule.mean_interval(fluid_step);
   std::span<Triple> stress;
   if (s.stress_balance) stress = s.stress_balance->room_for(grains.count);
   const tbb::blocked_range<std::size_t> all(0, grains.count, 4 * StencilBatch::k_size);
@@ -318,10 +317,10 @@ void Coupling::end_step(EvaluatedDrag drag, const particles::GrainRows& grains, 
       ParticleState& r = s.states[row];
       if (s.forces) s.forces->impulse_was_read(s.states, row, received);
       for (std::size_t d = 0; !stress.empty() && d < 3; ++d) {
-        stress[row][d] = grains.weight[row] * interval * r.stress_impulse[d];
+        stress[row][d] = grains.weight[row] * r.stress_impulse[d];
       }
       for (int d = 0; d < 3; ++d) {
-        const double drag_impulse = received[d] - interval * r.stress_impulse[d];
+        const double drag_impulse = received[d] - r.stress_impulse[d];
         if (!s.is_one_way && r.is_paired[d]) {
           r.deferred[d] += r.given[d] - grains.weight[row] * drag_impulse;
         }

@@ -99,7 +99,7 @@ class Coupling {
   /// (RefreshSchedule). Ask after each begin_step().
   [[nodiscard]] double refresh_interval() const;
   /// Reads fluid_impulse and sets it to zero.
-  void end_step(EvaluatedDrag drag, const particles::GrainRows& grains, double fluid_step);
+  void end_step(EvaluatedDrag drag, const particles::GrainRows& grains);
 
   /// Momentum exchange per cell [N/m3], the force on the fluid, 3 per interior cell (x fastest).
   void momentum_exchange(std::vector<float>& per_cell) const;

@@ -3,6 +3,7 @@
 
 #include "dust/sdk/error.hpp"
 #include "dust/sdk/sphere.hpp"
+#include "particles/surface_search.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -20,7 +20,7 @@ struct ParticleState {
   // What a refresh needs stands together.
   Triple fluid_velocity{};  ///< [m/s] its own plus the slip, at the last refresh
   Triple velocity{};        ///< [m/s] its own, at the last refresh
-  Triple stress_impulse{};  ///< [N] sum over the refreshes of V_p (-grad p + div tau)
+  Triple stress_impulse{};  ///< [N s] of V_p (-grad p + div tau) so far in this fluid step
   double size_ratio = 1.0;  ///< diameter over the Sauter mean in its cell, at begin_step()
   bool has_velocity = false;
   std::array<bool, 3> is_paired{};  ///< the component's force found open faces at begin_step()

@@ -25,10 +25,6 @@ class RefreshSchedule {
   [[nodiscard]] bool is_first() const { return done_ == 0; }
   /// [s] of the last one, 0 = none yet.
   [[nodiscard]] double last_held() const { return last_held_; }
-  /// [s] Mean over those of a step of `fluid_step`; 0 if there was none: nothing was received.
-  [[nodiscard]] double mean_interval(double fluid_step) const {
-    return done_ > 0 ? fluid_step / static_cast<double>(done_) : 0.0;
-  }
 
   void save(sdk::ArchiveWriter& archive) const;
   void load(sdk::ArchiveReader& archive);

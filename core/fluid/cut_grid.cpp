@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/cut_grid.hpp"
 
+#include "fluid/neighbour.hpp"
 #include "fluid/parallel.hpp"
 
 #include <algorithm>
@@ -140,9 +141,8 @@ void CutGrid::redistribute_closed(const Continuity& continuity, CellField& rate)
         std::ptrdiff_t best = -1;
         for (int d = 0; d < 3; ++d) {
           for (const int side : {-1, 1}) {
-            const int to = c[d] + side;
-            const std::ptrdiff_t q = o + side * grid_.stride[d];
-            if (to < 0 || to >= grid_.count[d] || !continuity.is_open(q)) continue;
+            const std::ptrdiff_t q = neighbour(grid_, o, d, c[d], side);
+            if (q < 0 || !continuity.is_open(q)) continue;
             if (best < 0 || geometry_.open_fraction[q] > geometry_.open_fraction[best]) best = q;
           }
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "particles/abutting.hpp"
 
-#include "bodies/survey/bounds.hpp"
+#include "bodies/survey/bounds_of.hpp"
 #include "bodies/survey/gap.hpp"
 #include "particles/surfaces.hpp"
 
@@ -48,17 +48,14 @@ bool AbuttingBody::takes_over(Vec3 point, double reach, const bodies::SurfacePoi
   if (body->is_removed()) return false;
   // Seldom is this one as near, which costs less to see.
   const double limit = near.distance + flush;
-  const int parts = body->shape->parts();
-  int first_part = 0;
-  while (first_part < parts && !body->is_within(first_part, point, limit, place)) {
-    ++first_part;
-  }
-  if (first_part == parts) return false;
+  thread_local std::vector<std::int32_t> parts;
+  body->find_within(point, limit, place, parts);
+  if (parts.empty()) return false;
   const double depth = body->nearest(foot, place).distance;
   if (depth > flush) return false;
   // Steps of distance instead of differences: of three bodies that are equally near, one remains.
   const double rank = std::floor(near.distance / rounding);
-  for (int part = first_part; part < parts; ++part) {
+  for (const std::int32_t part : parts) {
     if (depth >= -flush && !body->is_within(part, foot, flush, place)) continue;
     const double here = body->contact(part, point, limit, place).distance;
     const double mine = std::floor(here / rounding);

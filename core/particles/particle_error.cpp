@@ -2,6 +2,7 @@
 #include "particles/particle_error.hpp"
 
 #include "dust/sdk/error.hpp"
+#include "particles/surface_search.hpp"
 
 #include <cmath>
 #include <limits>

@@ -25,8 +25,13 @@ void Surface::leave_to_abutting(const bodies::ClosestPoints& spheres) const {
 }
 
 void move_to(double time, std::span<Surface> surfaces) {
+  const Surface* before = nullptr;
   for (Surface& s : surfaces) {
-    if (s.is_displaced()) s.place = s.body->placement(time);
+    if (s.is_displaced()) {
+      const bool is_next_part = before != nullptr && before->body == s.body;
+      s.place = is_next_part ? before->place : s.body->placement(time);
+    }
+    before = &s;
   }
 }
 
@@ -37,18 +42,6 @@ std::span<const Surface> surfaces_at(double time, std::span<const Surface> surfa
   moved.assign(surfaces.begin(), surfaces.end());
   move_to(time, moved);
   return moved;
-}
-
-NearestSurface nearest_surface(std::span<const Surface> surfaces, sdk::Vec3 point, double reach) {
-  NearestSurface nearest;
-  for (const Surface& s : surfaces) {
-    if (!s.may_touch(point, reach, 0.0)) continue;
-    const bodies::SurfacePoint found = s.contact(point, reach);
-    if (!(found.distance < reach)) continue;
-    if (nearest.surface != nullptr && found.distance >= nearest.point.distance) continue;
-    nearest = {&s, found};
-  }
-  return nearest;
 }
 
 std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies) {

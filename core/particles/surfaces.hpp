@@ -51,11 +51,18 @@ struct Surface {
     return near;
   }
   /// The nearest point of its body, whichever part of it or abutting body touches a sphere there:
-  /// for predictions, in whose time a sphere may pass from one to another.
+  /// for predictions, in whose time a sphere may pass from one to another, and for places in a
+  /// body, however deep.
   [[nodiscard]] bodies::SurfacePoint nearest(sdk::Vec3 point) const {
     if (body == nullptr) return {dot(normal, point) - offset, normal};
     return body->nearest(point, place);
   }
+  [[nodiscard]] bodies::SurfacePoint nearest_at(double time, sdk::Vec3 point) const {
+    if (!is_displaced()) return nearest(point);
+    return body->nearest(point, body->placement(time));
+  }
+  /// Whether it stands for its wall where all parts of that are asked for at once.
+  [[nodiscard]] bool is_first_part() const { return part == 0; }
   /// The contacts of many spheres.
   void touch(const bodies::ClosestPoints& spheres) const {
     if (body != nullptr) {
@@ -81,6 +88,13 @@ struct Surface {
     if (body != nullptr) return body->is_within(part, point, reach, place);
     return dot(normal, point) - offset < reach;
   }
+  /// Numbers of the parts of its body of which that holds, ascending.
+  void find_touchable_parts(sdk::Vec3 point, double reach, double duration,
+                            std::vector<std::int32_t>& parts) const {
+    parts.clear();
+    if (is_removed()) return;
+    body->find_within(point, reach + displacing_speed * duration, place, parts);
+  }
 
  private:
   void leave_to_abutting(sdk::Vec3 point, double reach, bodies::SurfacePoint& near) const;
@@ -93,14 +107,6 @@ void move_to(double time, std::span<Surface> surfaces);
 /// The surfaces where they stand at `time` [s]: where some move, copies in `moved`.
 std::span<const Surface> surfaces_at(double time, std::span<const Surface> surfaces,
                                      std::vector<Surface>& moved);
-
-/// A surface and what of it is nearest to a point.
-struct NearestSurface {
-  const Surface* surface = nullptr;  ///< null: none within reach
-  bodies::SurfacePoint point;
-};
-/// The surface nearest to `point` within `reach` [m], as they stood at their last move_to.
-NearestSurface nearest_surface(std::span<const Surface> surfaces, sdk::Vec3 point, double reach);
 
 std::vector<Surface> surfaces_of(const scenario::Setup& setup, const bodies::BodySet& bodies);
 

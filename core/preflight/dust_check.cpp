@@ -7,6 +7,7 @@
 #include "fluid/grid.hpp"
 #include "preflight/journey.hpp"
 #include "scenario/text/units.hpp"
+#include "setup/draws_out.hpp"
 
 #include <algorithm>
 #include <array>
@@ -62,7 +63,7 @@ std::vector<Taker> takers(const Setup& setup, const DustSetup& dust,
   std::vector<Taker> all;
   for (std::size_t n = 0; n < setup.bodies.size(); ++n) {
     const auto& suction = setup.bodies[n].suction;
-    if (!suction || !(suction->flow > 0.0)) continue;
+    if (!suction || !scenario::draws_out(*suction)) continue;
     all.push_back({"bodies." + setup.bodies[n].name + ".suction", &bodies[n], -1, suction->min,
                    suction->max});
   }

@@ -154,7 +154,7 @@ void FluidStage::refresh(const particles::GrainRows& all, double now, double hel
 void FluidStage::end_step(const particles::GrainRows& rows) {
   if (resolved_) resolved_->end_step(rows);
   if (!coupling_) return;
-  coupling_->end_step(std::move(evaluated_).value(), unresolved(rows), setup_.time.fluid_step);
+  coupling_->end_step(std::move(evaluated_).value(), unresolved(rows));
   evaluated_.reset();
   if (resolved_) unresolved_.give_back_impulses(rows);
 }

@@ -185,7 +185,8 @@ class DustQuantities {
     add_way("deposited", settled_on(), false);
     if (dust_.liberation) {
       add_way("set_free", causes(), false);
-    } else {
+    }
+    if (!dust_.liberation || !dust_.field->sources.empty()) {
       add_way("released", {"sources"}, false);
     }
     if (!running_bodies().empty()) add_way("carried_out", running_bodies(), false);

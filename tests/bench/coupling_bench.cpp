@@ -36,7 +36,7 @@ void exchange(benchmark::State& state, double diameter, int cells) {
   for (auto _ : state) {
     world.begin_step(1e-3);
     world.refresh();
-    world.end_step(1e-3);
+    world.end_step();
   }
   state.counters["us_per_grain"] =
       benchmark::Counter(20000e-6 * static_cast<double>(state.iterations()),

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cost per grain of new neighbour lists: a bed of one size, and a pocket of 20,000 grains of 10 um
-// among 10,000 of 0.5 mm. One thread.
-#include "support/dem_rig.hpp"
-
+// Cost per grain of new neighbour lists: a bed of one size, a pocket of 20,000 grains of 10 um
+// among 10,000 of 0.5 mm, and a bed on a mesh of many parts. One thread.
 #include "dust/sdk/random.hpp"
+#include "unit/bodies/meshes.hpp"
+#include "verification/walls/wall_rig.hpp"
 
 #include <oneapi/tbb/global_control.h>
+
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <string>
 
 using dust::particles::Dem;
 using dust::particles::NewGrain;
@@ -38,14 +42,28 @@ void add_lattice(std::vector<NewGrain>& grains, std::size_t count, double diamet
   }
 }
 
+/// A floor of so many pegs along each side, all of one mesh: a part each.
+void add_pegs(WallRig& rig, int along, double width) {
+  Corners pegs;
+  const double pitch = width / along;
+  for (int n = 0; n < along * along; ++n) {
+    const Vec3 corner{pitch * (n % along), pitch * (n / along), -2 * k_sand};
+    const Corners peg = box_mesh(corner, corner + Vec3{0.9 * pitch, 0.9 * pitch, 1.9 * k_sand});
+    pegs.insert(pegs.end(), peg.begin(), peg.end());
+  }
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("pocket_bench_" + std::to_string(::getpid()) + ".stl");
+  rig.body("mesh", {{"file", write_text_stl(file, pegs)}, {"unit", 1.0}});
+  std::filesystem::remove(file);
+}
+
 /// Nanoseconds per grain of a rebuild and the first watch after it: the best of many.
-double rebuild_cost(bool has_pocket) {
-  DemRig rig;
-  const int sand = rig.material(2650, 50e6, 0.3);
-  rig.law(sand, sand, 0.9, 0.5, 0.3);
-  rig.diameters = has_pocket ? std::vector<double>{k_dust, k_sand} : std::vector<double>{k_sand};
+double rebuild_cost(const std::string& name, bool has_pocket, int pegs_along = 0) {
+  WallRig rig(0.9, 0.5, k_sand, 0.3);
+  if (has_pocket) rig.diameters = {k_dust, k_sand};
   rig.setup.time.expected_speed = 0.1;
   const double spacing = 1.04 * k_sand;
+  if (pegs_along > 0) add_pegs(rig, pegs_along, k_edge * spacing);
   rig.setup.domain.min = {0, 0, -2 * k_sand};
   rig.setup.domain.max = {k_edge * spacing, k_edge * spacing, 0.1};
   auto dem = rig.make();
@@ -78,9 +96,7 @@ double rebuild_cost(bool has_pocket) {
     best = std::min(best, spent.count());
   }
   const auto count = static_cast<double>(dem->rows().count);
-  std::printf("%-42s %6.0f grains  %7.1f ns per grain\n",
-              has_pocket ? "20,000 of 10 um in a pocket of the sand" : "sand of 0.5 mm", count,
-              1e9 * best / count);
+  std::printf("%-42s %6.0f grains  %7.1f ns per grain\n", name.c_str(), count, 1e9 * best / count);
   return best / count;
 }
 
@@ -88,8 +104,11 @@ double rebuild_cost(bool has_pocket) {
 
 int main() {
   oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, 1);
-  const double sand = rebuild_cost(false);
-  const double pocket = rebuild_cost(true);
+  const double sand = rebuild_cost("sand of 0.5 mm", false);
+  const double pocket = rebuild_cost("20,000 of 10 um in a pocket of the sand", true);
   std::printf("ratio %.2f\n", pocket / sand);
+  const double peg = rebuild_cost("sand on a mesh of one part", false, 1);
+  const double pegs = rebuild_cost("sand on a mesh of 400 parts", false, 20);
+  std::printf("ratio %.2f\n", pegs / peg);
   return 0;
 }

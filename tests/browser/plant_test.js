@@ -58,6 +58,21 @@ assert.strictEqual(sums.fed, 3);
 assert.ok(Math.abs(sums.free - 0.004) < 1e-15);
 assert.strictEqual(sums.causes[0].name, 'grains');  // 2 g of two classes; the spoon's 2 g are of one
 assert.ok(Math.abs(sums.airborne + sums.settled + sums.out + sums.drawn - sums.free) < 1e-15);
+// Sources beside the load count to what comes into the air, not to what comes off the load.
+const leaky = {
+  simulated_s: 3600, mass_kg: {emitted: 1000},
+  dust_on_grains: {classes: {x: {entered_kg: 1, set_free_kg: 0.001, set_free_by: {grains: {kg: 0.001}}, balance_error: 0}}},
+  dust_field: {classes: {x: {released_kg: 0.011, airborne_kg: 0, deposited_kg: {}, left_kg: {left: 0.011}, hoods_kg: {}, balance_error: 0}}},
+  dust_rates: {observed: {value: 10}, 'set_free/all/rate': {value: 0.001, uncertainty: 1e-4}, 'set_free/all/per_load': {value: 1, uncertainty: 0.1}, 'set_free/grains/rate': {value: 0.001, uncertainty: 1e-4},
+    'released/all/rate': {value: 0.01, uncertainty: 0}, 'left/all/rate': {value: 0.011, uncertainty: 1e-4}, 'left/left/rate': {value: 0.011, uncertainty: 1e-4}},
+};
+const leak = Dust.dust_stream({summary: leaky}), leak_screen = Dust.load_dust_answers({summary: leaky}).map(text).join('');
+assert.ok(Math.abs(leak.free.rate.value - 0.011) < 1e-15 && leak.free.rate.uncertainty === 1e-4);
+assert.ok(Math.abs(leak.airborne.rate.value) < 1e-15);
+assert.ok(leak_screen.includes('How much dust?|1.00\u00a0±\u00a00.10\u202fg/t|'));
+assert.ok(leak_screen.includes('given by sources beside it|') && !leak_screen.includes('its cloud shrinks'));
+const leak_whole = Dust.dust_stream({summary: {...leaky, dust_rates: {}}});
+assert.ok(Math.abs(leak_whole.free.rate.value - 0.011) < 1e-15 && Math.abs(leak_whole.came_off.rate.value - 0.001) < 1e-15);
 assert.strictEqual(sums.error, 2e-16);
 assert.strictEqual(sums.caught, 0);  // of a run without scavenging
 const {classes: {x, y}} = dusty.dust_field;

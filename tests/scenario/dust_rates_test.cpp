@@ -103,6 +103,24 @@ TEST_CASE("what sources give shall be told as a rate beside where it goes") {
         approx(k_kg_per_h).epsilon(1e-9));
 }
 
+TEST_CASE("sources beside a load that gives off dust shall be told as a rate of their own") {
+  const TemporaryFolder folder;
+  const json summary = dust::test::run_summary(
+      DUST_SOURCE "/tests/scenario/dusty_stream.yaml", folder / "out",
+      {"--set",
+       "dust.field.sources={leak: {min: [0, 0, 200 mm], max: [60, 60, 240 "
+       "mm], mass_flow: [1 mg/s]}}",
+       "--set", "dust.steady_after=0.3 s", "--set", "domain.boundaries.bottom.grains=wall", "--set",
+       "domain.boundaries.bottom.material=steel"});
+  const json& rates = summary["dust_rates"];
+  CHECK(rates["released/sources/rate"]["value"].get<double>() == approx(k_kg_per_h).epsilon(1e-9));
+  CHECK(rates["set_free/all/rate"]["value"].get<double>() > 0.0);
+  const json& field = summary["dust_field"]["classes"]["10_um"];
+  const double came_off =
+      summary["dust_on_grains"]["classes"]["10_um"]["set_free_kg"].get<double>();
+  CHECK(field["released_kg"].get<double>() == approx(came_off + 0.6 * 1e-6).epsilon(1e-9));
+}
+
 TEST_CASE("a run with dust that is extended before its new middle shall be as one never cut") {
   const TemporaryFolder folder;
   const json whole = run(folder / "whole", {"time.end=0.2 s"});

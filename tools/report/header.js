@@ -45,8 +45,8 @@ Dust.sections.header = (data) => {
       return [Dust.strong(amount), ' of load ', ...where, share + '.'];
     }
     const stream = Dust.dust_stream(data);
-    const {load, rate} = stream ? stream.free : {};
-    if (stream && !Dust.load_dust(data).has_loads) {
+    const is_of_load = stream && Dust.load_dust(data).has_loads, {load, rate} = stream ? (is_of_load ? stream.came_off : stream.free) : {};
+    if (stream && !is_of_load) {
       return rate.value > 0 ? [Dust.strong(`${Dust.figure_text(rate, 'kg/h')} of dust`), ' come into the air.'] : [Dust.strong('No dust comes into the air'), '.'];
     }
     if (stream && Number.isFinite(load.value)) {

@@ -20,7 +20,7 @@ Dust.none_text = (figures) => {
 };
 
 // Sums over the classes of dust: {fed, free, causes, sides, hoods, carriers, airborne, settled, ...} in kg, lists of {name, kg}, or null.
-// Without loads `free` is what sources and clouds of the field give.
+// Without loads `free` is what sources and clouds of the field give; with them that is `given`, and part of it.
 Dust.load_dust = ({summary}) => {
   const loads = Object.values((summary.dust_on_grains || {}).classes || {}), field = Object.values((summary.dust_field || {}).classes || {});
   if (!loads.length && !field.length) return null;
@@ -32,8 +32,9 @@ Dust.load_dust = ({summary}) => {
   };
   const settled = named(field, (c) => c.deposited_kg), sides = named(field, (c) => c.left_kg), hoods = named(field, (c) => c.hoods_kg),
     carriers = named(field, (c) => c.carried_out_kg);
-  const all = (list) => list.reduce((sum, part) => sum + part.kg, 0);
-  return {has_loads, fed: total(loads, (c) => c.entered_kg), free: has_loads ? total(loads, (c) => c.set_free_kg) : total(field, (c) => c.released_kg), causes: named(loads, (c) => c.set_free_by),
+  const all = (list) => list.reduce((sum, part) => sum + part.kg, 0), came_off = total(loads, (c) => c.set_free_kg), released = total(field, (c) => c.released_kg);
+  const given = has_loads && released - came_off > 1e-9 * released ? released - came_off : 0;
+  return {has_loads, fed: total(loads, (c) => c.entered_kg), free: has_loads ? came_off + given : released, came_off, given, causes: named(loads, (c) => c.set_free_by),
     airborne: total(field, (c) => c.airborne_kg), settled: all(settled), caught: total(field, (c) => c.caught_by_grains_kg), sides, hoods, carriers, out: all(sides), drawn: all(hoods),
     error: Math.max(...loads.map((c) => Math.abs(c.balance_error || 0)), ...field.map((c) => Math.abs(c.balance_error || 0)))};
 };
@@ -53,17 +54,17 @@ Dust.hood_text = ({setting}, name) => {
 Dust.dust_stream = (data) => {
   const dust = Dust.load_dust(data), {summary} = data, figures = summary.dust_rates || {};
   if (!dust) return null;
-  const source = dust.has_loads ? 'set_free' : 'released', rate_of = (way) => (figures[`${way}/all/rate`] || {}).value || 0;
+  const ways_in = dust.has_loads ? ['set_free', 'released'] : ['released'], rate_of = (way) => (figures[`${way}/all/rate`] || {}).value || 0;
   // Shares of next to nothing say nothing.
   const negligible = 1e-3, others = ['left', 'drawn_out', 'deposited', 'carried_out', 'caught'].reduce((sum, way) => sum + Math.abs(rate_of(way)), 0);
-  const seconds = (figures.observed || {}).value || 0, is_quiet = !(rate_of(source) > negligible * others), observed = is_quiet ? 0 : seconds;
+  const seconds = (figures.observed || {}).value || 0, is_quiet = !(ways_in.reduce((sum, way) => sum + rate_of(way), 0) > negligible * others), observed = is_quiet ? 0 : seconds;
   const emitted = (summary.mass_kg || {}).emitted, is_mixed = (summary.start_from || {}).rates_since_s > 0;
   const per_tonne = (kg) => ({value: dust.has_loads && emitted > 0 && !is_mixed ? 1e6 * kg / emitted : NaN, uncertainty: null, is_whole: true});
   if (!observed) {
     const hours = summary.simulated_s / 3600, figure = (value) => ({value, uncertainty: null});
     const part = ({name, kg}) => ({name, rate: figure(hours > 0 ? kg / hours : NaN), load: per_tonne(kg)});
     const whole = (kg) => part({name: 'all', kg});
-    return {observed, is_mixed, quiet: dust.free > 0 ? seconds : 0, free: whole(dust.free), causes: dust.causes.map(part), sides: dust.sides.map(part), hoods: dust.hoods.map(part), carriers: dust.carriers.map(part), out: whole(dust.out), drawn: whole(dust.drawn),
+    return {observed, is_mixed, quiet: dust.free > 0 ? seconds : 0, free: whole(dust.free), came_off: whole(dust.came_off), given: whole(dust.given), causes: dust.causes.map(part), sides: dust.sides.map(part), hoods: dust.hoods.map(part), carriers: dust.carriers.map(part), out: whole(dust.out), drawn: whole(dust.drawn),
       settled: whole(dust.settled), caught: whole(dust.caught), airborne: whole(dust.airborne)};
   }
   const zero = {value: 0, uncertainty: null}, unknown = {value: NaN, uncertainty: null};
@@ -71,9 +72,11 @@ Dust.dust_stream = (data) => {
   const part = (way, name, kg) => ({name, rate: figures[`${way}/${name}/rate`] || zero, load: told(`${way}/${name}/per_load`) || (kg === undefined ? unknown : per_tonne(kg))});
   const names = (way) => Object.keys(figures).map((key) => key.split('/')).filter(([w, name, last]) => w === way && name !== 'all' && last === 'rate').map(([, name]) => name);
   const parts = (way) => names(way).map((name) => part(way, name)).sort((a, b) => b.rate.value - a.rate.value);
-  const free = part(source, 'all', dust.free), out = part('left', 'all', dust.out), [drawn, settled, carried, caught] = ['drawn_out', 'deposited', 'carried_out', 'caught'].map((way) => part(way, 'all'));
+  const came_off = part('set_free', 'all', dust.came_off), given = part('released', 'all', dust.has_loads ? undefined : dust.free);
+  // What sources give is known: the error is that of what comes off.
+  const free = !dust.has_loads ? given : {...came_off, rate: {...came_off.rate, value: came_off.rate.value + given.rate.value}}, out = part('left', 'all', dust.out), [drawn, settled, carried, caught] = ['drawn_out', 'deposited', 'carried_out', 'caught'].map((way) => part(way, 'all'));
   const rest = {value: [out, drawn, settled, carried, caught].reduce((left, {rate}) => left - rate.value, free.rate.value), uncertainty: null};
-  return {observed, quiet: 0, free, causes: dust.has_loads ? parts('set_free') : [], sides: parts('left'), hoods: parts('drawn_out'), carriers: parts('carried_out'), out, drawn, settled, caught, airborne: {name: 'airborne', rate: rest, load: unknown}};
+  return {observed, quiet: 0, free, came_off, given, causes: dust.has_loads ? parts('set_free') : [], sides: parts('left'), hoods: parts('drawn_out'), carriers: parts('carried_out'), out, drawn, settled, caught, airborne: {name: 'airborne', rate: rest, load: unknown}};
 };
 // Whether the cloud still grows or shrinks, in a sentence.
 Dust.cloud_text = (free, airborne) => {
@@ -127,7 +130,7 @@ Dust.indices_answer = ({summary}) => {
 Dust.load_dust_answers = (data) => {
   const dust = Dust.load_dust(data), stream = Dust.dust_stream(data), {summary} = data, {el, p} = Dust;
   if (!dust) return [];
-  const {free} = stream, fed = (summary.mass_kg || {}).emitted > 0 ? Dust.quantity(1e6 * dust.fed / summary.mass_kg.emitted, -1, 'g/t') : Dust.dash;
+  const {free, came_off, given} = stream, fed = (summary.mass_kg || {}).emitted > 0 ? Dust.quantity(1e6 * dust.fed / summary.mass_kg.emitted, -1, 'g/t') : Dust.dash;
   const said = Dust.figure_text, within = Dust.figure_within, is_told = ({value}) => Number.isFinite(value);
   const share = ({rate}) => (free.rate.value > 0 ? rate.value / free.rate.value : 0), percent = (part) => (free.rate.value > 0 ? Dust.percent(share(part)) : Dust.dash);
   const ranks = (list) => el('ul', {class: 'ranks'}, ...list.map((part) => el('li', {}, el('span', {}, part.title || Dust.words(part.name)), el('span', {}, percent(part)),
@@ -136,8 +139,8 @@ Dust.load_dust_answers = (data) => {
   const causes = stream.causes.filter((c) => c.rate.value > 0).map((c) => ({...c, title: c.name === 'grains' ? 'grains on grains' : Dust.words(c.name)}));
   const over_all = stream.observed > 0 && free.load.is_whole ? 'of all that was released, set free over the whole run' : '';
   const gets_out = counts(stream.out) && p({}, is_told(stream.out.load) ? `${said(stream.out.load, 'g/t')} get out with the air (${within(stream.out.rate, 'kg/h')})` : `${said(stream.out.rate, 'kg/h')} get out with the air`);
-  const of_load = () => answer('How much dust?', !(free.rate.value > 0) ? 'none' : is_told(free.load) ? said(free.load, 'g/t') : said(free.rate, 'kg/h'), over_all && is_told(free.load) && p({}, over_all),
-    p({}, `${said(free.rate, 'kg/h')} set free from the load, which carries ${fed}`), gets_out, Dust.drop_estimate(summary), Dust.fall_estimates(summary));
+  const of_load = () => answer('How much dust?', !(came_off.rate.value > 0) ? 'none' : is_told(came_off.load) ? said(came_off.load, 'g/t') : said(came_off.rate, 'kg/h'), over_all && is_told(came_off.load) && p({}, over_all),
+    p({}, `${said(came_off.rate, 'kg/h')} set free from the load, which carries ${fed}`), given.rate.value > 0 && p({}, `${said(given.rate, 'kg/h')} given by sources beside it`), gets_out, Dust.drop_estimate(summary), Dust.fall_estimates(summary));
   const of_field = () => answer(data.dust ? 'How much dust in the air?' : 'How much dust?', free.rate.value > 0 ? said(free.rate, 'kg/h') : 'none',
     p({}, dust.free > 0 ? `given by its sources; ${Dust.quantity(dust.free, -1, 'kg')} in the whole run, with the clouds at its start` : 'Nothing gave any dust in this run.'), gets_out);
   const how_much = dust.has_loads ? of_load() : of_field();

@@ -4,46 +4,30 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dust::bodies {
 namespace {
 
 using sdk::Vec3;
 
-constexpr std::int32_t k_leaf = 4;
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
-
-double box_distance2(Vec3 low, Vec3 high, Vec3 p) {
-  double sum = 0.0;
-  for (int d = 0; d < 3; ++d) {
-    const double off = std::max({low[d] - p[d], p[d] - high[d], 0.0});
-    sum += off * off;
-  }
-  return sum;
-}
 
 }  // namespace
 
 Mesh::Mesh(const std::vector<Vec3>& corners, Sides sides)
     : sides_(sides), surface_(connect_triangles(corners)) {
   divide(0.0);
-  uncut_parts_ = surface_.parts;
 }
 
 void Mesh::expect_spheres(double largest_radius) {
   if (largest_radius == largest_radius_) return;
   largest_radius_ = largest_radius;
-  uncut_strips_ = 0;
   divide(largest_radius);
-  if (surface_.parts - uncut_parts_ <= k_max_strips) return;
-  uncut_strips_ = surface_.parts - uncut_parts_;
-  divide(0.0);
 }
 
 void Mesh::divide(double largest_radius) {
   divide_into_parts(surface_, largest_radius, sides_ == Sides::both);
-  order_.clear();
-  trees_.assign(static_cast<std::size_t>(surface_.parts), {});
   grow_trees();
 }
 
@@ -55,65 +39,26 @@ Triangles Mesh::triangles() const {
 }
 
 void Mesh::grow_trees() {
-  std::vector<std::vector<std::int32_t>> of_part(trees_.size());
+  std::vector<std::vector<BoxTree::Thing>> of_part(static_cast<std::size_t>(surface_.parts));
   for (std::size_t n = 0; n < surface_.triangles.size(); ++n) {
-    if (surface_.triangles[n].is_sliver) continue;  // its edges are its neighbours'
-    of_part[static_cast<std::size_t>(surface_.triangles[n].part)].push_back(
-        static_cast<std::int32_t>(n));
+    const SurfaceTriangle& t = surface_.triangles[n];
+    if (t.is_sliver) continue;  // its edges are its neighbours'
+    BoxTree::Thing thing{
+        .number = static_cast<std::int32_t>(n),
+        .middle = (surface_.at(t, 0) + surface_.at(t, 1) + surface_.at(t, 2)) / 3.0};
+    for (int k = 0; k < 3; ++k) include(thing.box, surface_.at(t, k));
+    of_part[static_cast<std::size_t>(t.part)].push_back(thing);
   }
-  for (std::size_t p = 0; p < trees_.size(); ++p) {
-    const auto begin = static_cast<std::int32_t>(order_.size());
-    order_.insert(order_.end(), of_part[p].begin(), of_part[p].end());
-    if (!of_part[p].empty()) grow(trees_[p], begin, static_cast<std::int32_t>(order_.size()));
+  trees_.clear();
+  std::vector<BoxTree::Thing> parts;
+  for (auto& things : of_part) {
+    const BoxTree& tree = trees_.emplace_back(std::move(things));
+    if (tree.is_empty()) continue;
+    parts.push_back({.number = static_cast<std::int32_t>(trees_.size()) - 1,
+                     .box = tree.box(),
+                     .middle = 0.5 * (tree.box().low + tree.box().high)});
   }
-}
-
-/// Halves at the median of the middles along the longest side. The first child follows its parent.
-void Mesh::grow(Tree& tree, std::int32_t begin, std::int32_t end) {
-  const std::size_t self = tree.size();
-  tree.emplace_back();
-  const auto middle = [&](std::int32_t n) {
-    const SurfaceTriangle& t = surface_.triangles[static_cast<std::size_t>(n)];
-    return (surface_.at(t, 0) + surface_.at(t, 1) + surface_.at(t, 2)) / 3.0;
-  };
-  Vec3 low{k_infinity, k_infinity, k_infinity};
-  Vec3 high = -low;
-  Vec3 first = low;
-  Vec3 last = high;
-  for (std::int32_t q = begin; q < end; ++q) {
-    const std::int32_t n = order_[static_cast<std::size_t>(q)];
-    const Vec3 m = middle(n);
-    for (int d = 0; d < 3; ++d) {
-      for (int k = 0; k < 3; ++k) {
-        const double x = surface_.at(surface_.triangles[static_cast<std::size_t>(n)], k)[d];
-        low[d] = std::min(low[d], x);
-        high[d] = std::max(high[d], x);
-      }
-      first[d] = std::min(first[d], m[d]);
-      last[d] = std::max(last[d], m[d]);
-    }
-  }
-  tree[self].low = low;
-  tree[self].high = high;
-  if (end - begin <= k_leaf) {
-    tree[self].first = begin;
-    tree[self].count = end - begin;
-    return;
-  }
-  const Vec3 extent = last - first;
-  int d = 0;
-  if (extent.y > extent[d]) d = 1;
-  if (extent.z > extent[d]) d = 2;
-  const std::int32_t half = begin + (end - begin) / 2;
-  std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
-                   [&](std::int32_t a, std::int32_t b) {
-                     const double x = middle(a)[d];
-                     const double y = middle(b)[d];
-                     return x < y || (x == y && a < b);
-                   });
-  grow(tree, begin, half);
-  tree[self].first = static_cast<std::int32_t>(tree.size());
-  grow(tree, half, end);
+  tree_of_parts_ = BoxTree(std::move(parts));
 }
 
 /// Nearest point of a triangle by regions of its plane (Ericson, Real-Time Collision Detection,
@@ -158,42 +103,11 @@ Mesh::Foot Mesh::foot_on(std::int32_t n, Vec3 p) const {
   return foot;
 }
 
-void Mesh::descend(const Tree& tree, Vec3 point, Foot& best) const {
-  if (tree.empty()) return;
-  constexpr std::size_t k_deepest = 64;  // halving 2^31 triangles
-  std::int32_t stack[k_deepest];
-  double stack_distance2[k_deepest];
-  std::size_t count = 0;
-  stack_distance2[count] = box_distance2(tree[0].low, tree[0].high, point);
-  stack[count++] = 0;
-  while (count > 0) {
-    const std::int32_t self = stack[--count];
-    if (stack_distance2[count] >= best.distance2) continue;
-    const Node& node = tree[static_cast<std::size_t>(self)];
-    if (node.count > 0) {
-      for (std::int32_t q = node.first; q < node.first + node.count; ++q) {
-        const Foot foot = foot_on(order_[static_cast<std::size_t>(q)], point);
-        if (foot.distance2 < best.distance2) best = foot;
-      }
-      continue;
-    }
-    std::int32_t near = self + 1;
-    std::int32_t far = node.first;
-    const auto distance2 = [&](std::int32_t n) {
-      const Node& child = tree[static_cast<std::size_t>(n)];
-      return box_distance2(child.low, child.high, point);
-    };
-    double near2 = distance2(near);
-    double far2 = distance2(far);
-    if (far2 < near2) {
-      std::swap(near, far);
-      std::swap(near2, far2);
-    }
-    stack[count] = far;
-    stack_distance2[count++] = far2;
-    stack[count] = near;
-    stack_distance2[count++] = near2;
-  }
+void Mesh::descend(std::int32_t part, Vec3 point, Foot& best) const {
+  trees_[static_cast<std::size_t>(part)].look_near(point, best.distance2, [&](std::int32_t n) {
+    const Foot foot = foot_on(n, point);
+    if (foot.distance2 < best.distance2) best = foot;
+  });
 }
 
 Vec3 Mesh::normal_at(const Foot& foot) const {
@@ -226,7 +140,17 @@ SurfacePoint Mesh::surface_point(const Foot& foot, Vec3 point) const {
 
 SurfacePoint Mesh::nearest(Vec3 point) const {
   Foot best;
-  for (const Tree& tree : trees_) descend(tree, point, best);
+  double limit2 = k_infinity;
+  std::int32_t of_best = -1;
+  tree_of_parts_.look_near(point, limit2, [&](std::int32_t part) {
+    Foot foot;
+    foot.distance2 = part < of_best ? limit2 : best.distance2;  // of equally near ones the first
+    descend(part, point, foot);
+    if (foot.triangle < 0) return;
+    best = foot;
+    of_best = part;
+    limit2 = std::nextafter(best.distance2, k_infinity);
+  });
   if (best.triangle < 0) return {k_infinity, {0, 0, 1}};
   return surface_point(best, point);
 }
@@ -234,8 +158,16 @@ SurfacePoint Mesh::nearest(Vec3 point) const {
 bool Mesh::is_within(int part, Vec3 point, double reach) const {
   Foot best;
   best.distance2 = reach * reach;
-  descend(trees_[static_cast<std::size_t>(part)], point, best);
+  descend(part, point, best);
   return best.triangle >= 0;
+}
+
+void Mesh::find_within(Vec3 point, double reach, std::vector<std::int32_t>& parts) const {
+  parts.clear();
+  tree_of_parts_.look_near(point, reach * reach, [&](std::int32_t part) {
+    if (is_within(part, point, reach)) parts.push_back(part);
+  });
+  std::sort(parts.begin(), parts.end());
 }
 
 /// At an edge or corner that parts share the sphere touches once: not this part, where another one
@@ -294,21 +226,25 @@ SurfacePoint Mesh::contact(int part, Vec3 point, double reach, std::int32_t* hin
     const Foot last = foot_on(*hint, point);
     if (last.distance2 < best.distance2) best = last;
   }
-  descend(trees_[static_cast<std::size_t>(part)], point, best);
+  descend(part, point, best);
   if (best.triangle < 0) return none;
   if (hint != nullptr) *hint = best.triangle;
   const SurfacePoint s = surface_point(best, point);
   if (belongs_to_other(best, part, point)) return none;
   if (s.distance >= 0.0) return s;
   // Behind this part: in the solid, if no other part is nearer; else on another side of it.
-  for (std::size_t p = 0; p < trees_.size(); ++p) {
-    if (p == static_cast<std::size_t>(part)) continue;
+  bool is_other_nearer = false;
+  double limit2 = best.distance2;
+  tree_of_parts_.look_near(point, limit2, [&](std::int32_t other) {
+    if (other == part || is_other_nearer) return;
     Foot nearer;
     nearer.distance2 = best.distance2;
-    descend(trees_[p], point, nearer);
-    if (nearer.triangle >= 0) return none;
-  }
-  return s;
+    descend(other, point, nearer);
+    if (nearer.triangle < 0) return;
+    is_other_nearer = true;
+    limit2 = 0.0;
+  });
+  return is_other_nearer ? none : s;
 }
 
 }  // namespace dust::bodies

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "bodies/mesh/box_tree.hpp"
 #include "bodies/mesh/triangle_surface.hpp"
 #include "bodies/shape.hpp"
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -24,12 +24,8 @@ class Mesh {
   };
   /// Three corners per triangle [m], anticlockwise seen from outside.
   Mesh(const std::vector<sdk::Vec3>& corners, Sides sides);
-  /// Cuts it into the parts that spheres up to this radius [m] touch at once. Lists ask every part
-  /// about every sphere: where hollows would add more than k_max_strips parts, they stay uncut.
+  /// Cuts it into the parts that spheres up to this radius [m] touch at once.
   void expect_spheres(double largest_radius);
-  static constexpr int k_max_strips = 250;
-  /// Parts that uncut hollows would add; 0 where all are cut.
-  [[nodiscard]] int uncut_strips() const { return uncut_strips_; }
 
   [[nodiscard]] const MeshHealth& health() const { return surface_.health; }
   [[nodiscard]] int parts() const { return static_cast<int>(trees_.size()); }
@@ -47,6 +43,8 @@ class Mesh {
                                      std::int32_t* hint = nullptr) const;
   /// Whether the part has a point nearer than `reach`, on whichever side.
   [[nodiscard]] bool is_within(int part, sdk::Vec3 point, double reach) const;
+  /// The parts of which that is so, ascending; `parts` is emptied first.
+  void find_within(sdk::Vec3 point, double reach, std::vector<std::int32_t>& parts) const;
   [[nodiscard]] Triangles triangles() const;
 
  private:
@@ -58,16 +56,9 @@ class Mesh {
     Feature feature = Feature::face;
     int corner = 0;  ///< of the vertex, or where the edge begins
   };
-  struct Node {
-    sdk::Vec3 low, high;
-    std::int32_t first = 0, count = 0;  ///< triangles of a leaf; count 0: the second child is first
-  };
-  using Tree = std::vector<Node>;
-
   void divide(double largest_radius);
   void grow_trees();
-  void grow(Tree& tree, std::int32_t begin, std::int32_t end);
-  void descend(const Tree& tree, sdk::Vec3 point, Foot& best) const;
+  void descend(std::int32_t part, sdk::Vec3 point, Foot& best) const;
   [[nodiscard]] Foot foot_on(std::int32_t triangle, sdk::Vec3 point) const;
   [[nodiscard]] sdk::Vec3 normal_at(const Foot& foot) const;
   [[nodiscard]] bool belongs_to_other(const Foot& foot, int part, sdk::Vec3 point) const;
@@ -75,11 +66,9 @@ class Mesh {
 
   Sides sides_;
   TriangleSurface surface_;
-  std::vector<std::int32_t> order_;  ///< triangles by part and tree
-  std::vector<Tree> trees_;          ///< one per part
-  double largest_radius_ = 0.0;      ///< [m] of the spheres it is cut for
-  int uncut_parts_ = 0;              ///< for spheres of any size
-  int uncut_strips_ = 0;
+  std::vector<BoxTree> trees_;  ///< one per part, of its triangles
+  BoxTree tree_of_parts_;
+  double largest_radius_ = 0.0;  ///< [m] of the spheres it is cut for
 };
 
 /// The corners of the triangles of an STL file, binary or text, in the file's own unit. Throws a

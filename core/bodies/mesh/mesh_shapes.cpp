@@ -45,6 +45,9 @@ class MeshShape : public Shape {
   [[nodiscard]] bool is_within(int part, Vec3 point, double reach) const override {
     return mesh_.is_within(part, point, reach + half_);
   }
+  void find_within(Vec3 point, double reach, std::vector<std::int32_t>& parts) const override {
+    mesh_.find_within(point, reach + half_, parts);
+  }
   [[nodiscard]] bool is_solid() const override { return sides_ == Mesh::Sides::one || half_ > 0.0; }
   [[nodiscard]] Vec3 lateral_axis() const override { return {0, 1, 0}; }
   [[nodiscard]] Triangles triangles(Vec3, Vec3, double) const override { return mesh_.triangles(); }
@@ -145,24 +148,15 @@ class StlMesh final : public MeshShape {
   }
   [[nodiscard]] std::vector<std::string> notes() const override {
     const MeshHealth& h = mesh_.health();
-    std::vector<std::string> all;
-    all.push_back(file_ + ": " + std::to_string(h.triangles) + " triangles, " +
-                  std::to_string(h.vertices) + " points, " + std::to_string(h.shells) +
-                  (h.shells == 1 ? " shell, " : " shells, ") +
-                  (h.is_closed() ? "closed, volume " + base::volume_text(h.volume)
-                                 : std::to_string(h.open_edges) + " open edges") +
-                  ", area " + base::area_text(h.area) + ", " + std::to_string(mesh_.parts()) +
-                  " parts that a grain can touch at once; edges " +
-                  base::length_text(h.shortest_edge) + " to " + base::length_text(h.longest_edge) +
-                  ", median " + base::length_text(h.median_edge));
-    if (mesh_.uncut_strips() > 0) {
-      all.push_back(file_ + ": hollows narrower than the largest grain would be " +
-                    std::to_string(mesh_.uncut_strips()) + " parts, more than " +
-                    std::to_string(Mesh::k_max_strips) +
-                    ": a grain touches each at one place, and gains some energy where that jumps; "
-                    "as several meshes they are cut, which takes longer");
-    }
-    return all;
+    return {file_ + ": " + std::to_string(h.triangles) + " triangles, " +
+            std::to_string(h.vertices) + " points, " + std::to_string(h.shells) +
+            (h.shells == 1 ? " shell, " : " shells, ") +
+            (h.is_closed() ? "closed, volume " + base::volume_text(h.volume)
+                           : std::to_string(h.open_edges) + " open edges") +
+            ", area " + base::area_text(h.area) + ", " + std::to_string(mesh_.parts()) +
+            " parts that a grain can touch at once; edges " + base::length_text(h.shortest_edge) +
+            " to " + base::length_text(h.longest_edge) + ", median " +
+            base::length_text(h.median_edge)};
   }
   [[nodiscard]] std::vector<std::string> warnings() const override {
     const MeshHealth& h = mesh_.health();

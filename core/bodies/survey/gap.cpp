@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/survey/gap.hpp"
 
-#include "bodies/survey/bounds.hpp"
+#include "bodies/survey/bounds_of.hpp"
 
 #include <algorithm>
 #include <array>

@@ -148,7 +148,7 @@ void DragRelaxation::relax_by_drag(const ParticleBatch& batch, const SampledFlow
           volume * flow.stress[d][q] + (lift == 0.0 ? 0.0 : lift * gravity_[static_cast<int>(d)]);
       relative[d] = relative_slip(flow, ahead, d, q);
       action[d] = v[d] + relative[d] + force * per_drag;
-      r.stress_impulse[d] += force;
+      r.stress_impulse[d] += held * force;
     }
     action[3] = drag * grains.inverse_mass(row);
     note_wind(grains, row, relative, drag);
@@ -220,7 +220,7 @@ void DragRelaxation::act(const ParticleBatch& batch, std::size_t q, double drag_
   }
   for (std::size_t d = 0; d < 3; ++d) {
     action[d] = v[d] + pull[d] / drag_coefficient;
-    r.stress_impulse[d] += contained[d];
+    r.stress_impulse[d] += held * contained[d];
   }
   action[3] = drag_coefficient / moved;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace dust::coupling {
 namespace {
@@ -10,6 +11,8 @@ namespace {
 /// Open share of a face's control volume up to which the face takes nothing: its centre then lies
 /// in or on a body, where the fluid's velocity is given and a force would be lost.
 constexpr double k_closed_face = 0.5 + 1e-9;
+/// A point this close to a surface [cells] counts as being on it, as for the fluid.
+constexpr double k_on_surface = 1e-6;
 
 int wrap(int i, int n) { return ((i % n) + n) % n; }
 
@@ -47,23 +50,40 @@ void Lattice::set_open_fraction(const fluid::CellField& open_fraction) {
       }
     }
   }
-  for (int d = 0; d < 3; ++d) {
-    open_face_[d].assign(grid_.size, 0.0F);
-    for (int k = 0; k < grid_.count[2]; ++k) {
-      for (int j = 0; j < grid_.count[1]; ++j) {
-        for (int i = 0; i < grid_.count[0]; ++i) {
-          const std::array<int, 3> at{i, j, k};
-          // A face on a side belongs to the boundary; the next one inside takes its part.
-          if (at[d] == 0 && !grid_.is_periodic[d]) continue;
-          const double upper = open_cell_[grid_.index(i, j, k)];
-          const double lower = open_cell_[cell(i - (d == 0), j - (d == 1), k - (d == 2))];
-          const double share = 0.5 * (lower + upper);
-          if (share > k_closed_face) {
-            open_face_[d][grid_.index(i, j, k)] = static_cast<float>(share);
-          }
-        }
+  for (int d = 0; d < 3; ++d) open_faces(d);
+}
+
+void Lattice::open_faces(int d) {
+  open_face_[d].assign(grid_.size, 0.0F);
+  for (int k = 0; k < grid_.count[2]; ++k) {
+    for (int j = 0; j < grid_.count[1]; ++j) {
+      for (int i = 0; i < grid_.count[0]; ++i) {
+        const std::array<int, 3> at{i, j, k};
+        // A face on a side belongs to the boundary; the next one inside takes its part.
+        if (at[d] == 0 && !grid_.is_periodic[d]) continue;
+        const double upper = open_cell_[grid_.index(i, j, k)];
+        const double lower = open_cell_[cell(i - (d == 0), j - (d == 1), k - (d == 2))];
+        const double share = 0.5 * (lower + upper);
+        if (!(share > k_closed_face)) continue;
+        if (share < 1.0 && is_in_body(grid_.face(d, i, j, k))) continue;
+        open_face_[d][grid_.index(i, j, k)] = static_cast<float>(share);
       }
     }
+  }
+}
+
+/// A body's corner, or a bend, may reach over the middle of a face that is open for the greater
+/// part: the fluid's velocity is given there, too.
+bool Lattice::is_in_body(sdk::Vec3 face) const {
+  const sdk::Vec3 spacing = grid_.spacing;
+  const auto wall = walls_.nearest(face, std::max({spacing.x, spacing.y, spacing.z}));
+  return wall && wall->distance <= k_on_surface * std::min({spacing.x, spacing.y, spacing.z});
+}
+
+void Lattice::use_walls(std::vector<particles::Surface> surfaces) {
+  walls_.use(std::move(surfaces));
+  if (has_bodies_) {
+    for (int d = 0; d < 3; ++d) open_faces(d);
   }
 }
 

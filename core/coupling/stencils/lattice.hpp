@@ -55,6 +55,8 @@ class Lattice {
 
   /// After set_open_fraction(): faces between cells that a thin body keeps apart take nothing.
   void close(std::span<const fluid::BlockedFace> faces);
+  /// The surfaces of bodies, whose corners reach over faces that are open for the greater part.
+  void use_walls(std::vector<particles::Surface> surfaces);
 
   [[nodiscard]] const fluid::Grid& grid() const { return grid_; }
   [[nodiscard]] double cell_volume() const { return cell_volume_; }
@@ -84,7 +86,6 @@ class Lattice {
   /// Whether a body takes part of a cell.
   [[nodiscard]] bool has_bodies() const { return has_bodies_; }
   /// The surfaces of the bodies that do, as far as they were given.
-  [[nodiscard]] NearWalls& walls() { return walls_; }
   [[nodiscard]] const NearWalls& walls() const { return walls_; }
   /// Open shares of the faces of component d, by home.
   [[nodiscard]] const float* open_shares(int d) const { return open_face_[d].data(); }
@@ -217,6 +218,8 @@ class Lattice {
     return static_cast<unsigned>(i) < static_cast<unsigned>(grid_.count[d]);
   }
   [[nodiscard]] bool is_blocked(std::size_t d, std::ptrdiff_t face) const;
+  void open_faces(int d);
+  [[nodiscard]] bool is_in_body(sdk::Vec3 face) const;
   /// open_cell() of a cell outside the grid.
   [[nodiscard]] std::ptrdiff_t open_image(int i, int j, int k) const;
   static std::ptrdiff_t offset(const Offsets& table, int index) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coupling/stencils/multi_cell_kernel.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 namespace dust::coupling {
 namespace {
@@ -35,23 +35,21 @@ void MultiCellKernel::set(const double* position, double radius) {
                               weight_.data()});
   shares_.clear();
   double sum = 0.0;
-  double moment = 0.0;
-  for (std::size_t n = 0; n < static_cast<std::size_t>(used); ++n) {
-    const std::ptrdiff_t cell = lattice_.open_cell(i_[n], j_[n], k_[n]);
-    const std::array<int, 3> at{i_[n], j_[n], k_[n]};
-    for (int d = 0; d < 3; ++d) {
-      const double h = grid.spacing[d];
-      const double x = grid.origin[d] + (at[d] + 0.5) * h - position[d];
-      moment += weight_[n] * (x * x + h * h / 12.0);
-    }
-    if (cell < 0) continue;
+  const auto add = [&](std::ptrdiff_t cell, double weight) {
     // Indices of the periodic image inside, so that faces can be counted from them.
     const std::array<int, 3> storage = lattice_.indices(cell);
-    shares_.push_back({storage[0], storage[1], storage[2], cell, weight_[n]});
-    sum += weight_[n];
+    shares_.push_back({storage[0], storage[1], storage[2], cell, weight});
+    sum += weight;
+  };
+  for (std::size_t n = 0; n < static_cast<std::size_t>(used); ++n) {
+    const std::ptrdiff_t cell = lattice_.open_cell(i_[n], j_[n], k_[n]);
+    if (cell >= 0 && weight_[n] > 0.0) add(cell, weight_[n]);
+  }
+  // Beyond a side that it has just left, or deep in a body.
+  if (shares_.empty()) {
+    add(lattice_.host_cell(lattice_.cell(lattice_.place(position)), position), 1.0);
   }
   for (Share& share : shares_) share.weight /= sum;
-  ball_radius_ = std::sqrt(5.0 / 3.0 * moment);
 }
 
 void MultiCellKernel::stencil(int d, const fluid::CellField& eps, MultiCellStencil& s) const {

@@ -25,14 +25,13 @@ class MultiCellKernel {
   /// Whether a grain is coupled over its cells, not through the eight faces around its centre.
   [[nodiscard]] bool takes(double radius) const { return 2.0 * radius > largest_; }
 
-  /// Looks at a grain; `position` [m] of its centre.
+  /// Looks at a grain; `position` [m] of its centre. One that has no open cell around has all of
+  /// the one nearest to it.
   void set(const double* position, double radius);
   /// Faces of component d, with void fractions from the padded field `eps`.
   void stencil(int d, const fluid::CellField& eps, MultiCellStencil& s) const;
   /// Mean of a padded field over the cells.
   [[nodiscard]] double mean(const fluid::CellField& field) const;
-  /// Radius [m] of the ball of the same second moment as the shares.
-  [[nodiscard]] double ball_radius() const { return ball_radius_; }
   struct Share {
     int i, j, k;
     std::ptrdiff_t cell;
@@ -44,7 +43,6 @@ class MultiCellKernel {
   const Lattice& lattice_;
   const sdk::VoidageRule& rule_;
   double largest_;
-  double ball_radius_ = 0.0;
   std::vector<Share> shares_;
   std::vector<int> i_, j_, k_;
   std::vector<double> weight_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "coupling/stencils/near_walls.hpp"
 
+#include "particles/surface_search.hpp"
+
 #include <utility>
 
 namespace dust::coupling {

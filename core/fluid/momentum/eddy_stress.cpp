@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -134,17 +135,16 @@ std::array<bool, 6> EddyStress::sides_that_are_walls(const FaceField& u) const {
 void EddyStress::find_distances(const bodies::BodySet& bodies, double time) {
   const double reach = k_far * filter_width_;
   for_rows(grid_.count[0], grid_.count[1], grid_.count[2], [&](int j, int k) {
+    std::vector<std::int32_t> parts;
     for (int i = 0; i < grid_.count[0]; ++i) {
       const sdk::Vec3 centre = grid_.centre(i, j, k);
       double least = std::numeric_limits<double>::infinity();
       for (const bodies::Body& body : bodies) {
         if (body.is_removed()) continue;
         const bodies::Placement at = body.placement(time);
-        for (int part = 0; part < body.shape->parts(); ++part) {
-          if (!body.is_within(part, centre, reach, at)) continue;
-          least = std::min(least, std::max(0.0, body.nearest(centre, at).distance));
-          break;
-        }
+        body.find_within(centre, reach, at, parts);
+        if (parts.empty()) continue;
+        least = std::min(least, std::max(0.0, body.nearest(centre, at).distance));
       }
       walls_.body_distance[grid_.index(i, j, k)] = least;
     }

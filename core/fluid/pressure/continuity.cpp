@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluid/pressure/continuity.hpp"
 
+#include "fluid/neighbour.hpp"
 #include "fluid/parallel.hpp"
 #include "fluid/step/step_rows.hpp"
 
@@ -97,10 +98,9 @@ void Continuity::geometry_changed(CellField& pressure) {
         const std::array<int, 3> c = {i, j, k};
         for (int d = 0; d < 3; ++d) {
           for (const int step : {-1, 1}) {
-            const int to = c[d] + step;
-            if (to < 0 || to >= n[d]) continue;
-            const std::ptrdiff_t q = o + step * grid_.stride[d];
-            if (was_open_[q] == 0 || !(pattern_.component[d][step > 0 ? q : o] > 0.0)) continue;
+            const std::ptrdiff_t q = neighbour(grid_, o, d, c[d], step);
+            if (q < 0 || was_open_[q] == 0 || !(pattern_.component[d][step > 0 ? q : o] > 0.0))
+              continue;
             sum += pressure[q];
             ++count;
           }

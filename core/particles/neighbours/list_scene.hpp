@@ -7,6 +7,7 @@
 #include "particles/pair_law_table.hpp"
 #include "particles/store/particle_store.hpp"
 #include "particles/store/tile.hpp"
+#include "particles/surface_search.hpp"
 #include "particles/surfaces.hpp"
 
 #include <cmath>
@@ -51,6 +52,14 @@ struct ListScene {
     reach += duration * std::sqrt(speed2(row));
     // The surfaces stand where the step before saw them.
     return surface.may_touch({p[0], p[1], p[2]}, reach, duration + step);
+  }
+  /// Numbers of all surfaces of which that is so, ascending.
+  [[nodiscard]] std::span<const std::int32_t> find_surfaces(std::size_t row, double reach,
+                                                            double duration,
+                                                            SurfaceSearch& search) const {
+    const double* p = position(row);
+    reach += duration * std::sqrt(speed2(row));
+    return search.may_touch(surfaces, {p[0], p[1], p[2]}, reach, duration + step);
   }
   /// Side i of a pair is the fine particle where there is one, else the lower id, so that a history
   /// keeps its sign through all sorts.

@@ -95,34 +95,34 @@ void OuterList::build_tile(const ListScene& scene, std::size_t number, std::vect
   tile.pairs.assign_by_row(pairs, range);
   std::vector<RowPair>().swap(pairs);
   const double duration = scene.time_of(lifetime_);
-  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
-    for (std::int32_t i = range.begin; i < range.end; ++i) {
-      if (may_meet(scene, static_cast<std::size_t>(i), scene.surfaces[s], duration)) {
-        tile.walls.push(i, static_cast<std::int32_t>(s));
-      }
-    }
+  SurfaceSearch search;
+  std::vector<RowPair> walls;  // the surface first: by surface, then by row
+  for (std::int32_t i = range.begin; i < range.end; ++i) {
+    for (const std::int32_t s : surfaces_near(scene, static_cast<std::size_t>(i), duration, search))
+      walls.push_back({s, i});
   }
+  std::sort(walls.begin(), walls.end());
+  for (const auto& [s, i] : walls) tile.walls.push(i, s);
   group_by_law(scene, tile.pairs);
   group_by_law(scene, tile.walls);
 }
 
 void OuterList::build_fine(const ListScene& scene) {
   const double duration = scene.time_of(lifetime_);
+  SurfaceSearch search;
   for (std::size_t n = scene.tiling.coarse_count; n < scene.particles.size(); ++n) {
-    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
-      if (may_meet(scene, n, scene.surfaces[s], duration)) {
-        fine_.push(static_cast<std::int32_t>(n), -1 - static_cast<std::int32_t>(s));
-      }
+    for (const std::int32_t s : surfaces_near(scene, n, duration, search)) {
+      fine_.push(static_cast<std::int32_t>(n), -1 - s);
     }
   }
   fine_.group_as_one();
 }
 
-bool OuterList::may_meet(const ListScene& scene, std::size_t row, const Surface& surface,
-                         double duration) const {
-  return scene.may_meet(row, surface,
-                        scene.radius(row) + trajectories_.skin(row) + scene.laws.largest_range(),
-                        duration);
+std::span<const std::int32_t> OuterList::surfaces_near(const ListScene& scene, std::size_t row,
+                                                       double duration,
+                                                       SurfaceSearch& search) const {
+  const double reach = scene.radius(row) + trajectories_.skin(row) + scene.laws.largest_range();
+  return scene.find_surfaces(row, reach, duration, search);
 }
 
 void OuterList::group_by_law(const ListScene& scene, PairList& list) {

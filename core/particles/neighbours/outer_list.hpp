@@ -88,8 +88,9 @@ class OuterList {
   [[nodiscard]] Shares share_pairs(const ListScene& scene, ListTuner::OuterStatistics& statistics);
   void build_tile(const ListScene& scene, std::size_t tile, std::vector<RowPair> pairs);
   void build_fine(const ListScene& scene);
-  [[nodiscard]] bool may_meet(const ListScene& scene, std::size_t row, const Surface& surface,
-                              double duration) const;
+  [[nodiscard]] std::span<const std::int32_t> surfaces_near(const ListScene& scene, std::size_t row,
+                                                            double duration,
+                                                            SurfaceSearch& search) const;
   static void group_by_law(const ListScene& scene, PairList& list);
 
   // outer_list_update.cpp

@@ -168,15 +168,13 @@ void OuterList::add_new(PairList& list, std::vector<RowPair>& pairs, const Displ
 
 void OuterList::add_walls(const ListScene& scene, std::span<const std::int32_t> displaced) {
   std::vector<std::uint8_t> has_more(tiles_.size(), 0);
+  SurfaceSearch search;
   for (const std::int32_t row : displaced) {
     const bool is_coarse = scene.tiling.is_coarse(row);
     const std::size_t owner = is_coarse ? scene.tiling.tile_of(row) : 0;
     PairList& list = is_coarse ? tiles_[owner].walls : fine_;
-    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
-      if (!may_meet(scene, static_cast<std::size_t>(row), scene.surfaces[s], remaining(scene))) {
-        continue;
-      }
-      const auto number = static_cast<std::int32_t>(s);
+    for (const std::int32_t number :
+         surfaces_near(scene, static_cast<std::size_t>(row), remaining(scene), search)) {
       const std::int32_t b = is_coarse ? number : -1 - number;
       if (list.has(row, b)) continue;
       list.push(row, b);

@@ -10,54 +10,46 @@ namespace {
 /// [-] of the radius: deeper, a particle has not come to touch a surface but lies in it.
 constexpr double k_touch = 0.05;
 
+/// [m] Of the whole body, or side, that a surface is the first part of.
 double overlap_of(const Conditions& conditions, std::size_t surface, const double* position) {
   const Surface& s = conditions.surfaces[surface];
   if (s.is_removed()) return 0.0;
   return position[3] -
-         s.contact_at(conditions.time, {position[0], position[1], position[2]}).distance;
+         s.nearest_at(conditions.time, {position[0], position[1], position[2]}).distance;
 }
 
-/// Which particles of another solver lie in a surface that was not there before, or deeper.
+/// Which particles of another solver lie in a wall that was not there before, or deeper.
 class NewOverlaps {
  public:
   NewOverlaps(const Conditions& from, const Conditions& to, const Translation& names)
-      : from_(from), to_(to), before_(to.surfaces.size()) {
-    for (std::size_t s = 0; s < names.surfaces().size(); ++s) {
-      const std::int32_t here = names.surfaces()[s];
-      if (here >= 0) before_[static_cast<std::size_t>(here)] = {s};
+      : from_(from), to_(to), before_(to.surfaces.size(), -1) {
+    for (std::size_t s = 0; s < to.surfaces.size(); ++s) {
+      if (to.surfaces[s].is_first_part()) walls_.push_back(s);
     }
-    for (std::size_t s = 0; s < before_.size(); ++s) {
-      if (before_[s].empty()) before_[s] = other_parts_of(to.surfaces[s]);
+    for (std::size_t s = 0; s < names.walls().size(); ++s) {
+      const std::int32_t here = names.walls()[s];
+      if (here < 0 || !from.surfaces[s].is_first_part()) continue;
+      before_[static_cast<std::size_t>(here)] = static_cast<std::int32_t>(s);
     }
   }
+  /// Numbers of the surfaces that stand for the walls.
+  [[nodiscard]] const std::vector<std::size_t>& walls() const { return walls_; }
   /// `position`: x, y, z, radius [m].
-  [[nodiscard]] bool lies_in(const double* position, std::size_t surface) const {
-    const double overlap = overlap_of(to_, surface, position);
+  [[nodiscard]] bool lies_in(const double* position, std::size_t wall) const {
+    const double overlap = overlap_of(to_, wall, position);
     if (overlap <= k_touch * position[3]) return false;
-    // What is pressed into a surface already, stays so.
-    double then = 0.0;
-    for (const std::size_t s : before_[surface]) {
-      then = std::max(then, overlap_of(from_, s, position));
-    }
-    return overlap > 2.0 * then;
+    // What is pressed into a wall already, stays so.
+    const std::int32_t before = before_[wall];
+    const double then =
+        before < 0 ? 0.0 : overlap_of(from_, static_cast<std::size_t>(before), position);
+    return overlap > 2.0 * std::max(then, 0.0);
   }
 
  private:
-  /// Numbers of the surfaces of a body that has other parts than before.
-  [[nodiscard]] std::vector<std::size_t> other_parts_of(const Surface& surface) const {
-    std::vector<std::size_t> parts;
-    for (std::size_t s = 0; surface.body != nullptr && s < from_.surfaces.size(); ++s) {
-      const Surface& other = from_.surfaces[s];
-      if (other.body != nullptr && other.name == surface.name) parts.push_back(s);
-    }
-    return parts;
-  }
-
   const Conditions& from_;
   const Conditions& to_;
-  /// The other's numbers of each surface, those of its whole body where its part is new; empty: it
-  /// had none.
-  std::vector<std::vector<std::size_t>> before_;
+  std::vector<std::size_t> walls_;
+  std::vector<std::int32_t> before_;  ///< the other's number of each wall; -1: it had none
 };
 
 void note_name(std::vector<std::string>& names, const std::string& name) {
@@ -97,7 +89,7 @@ TransferObstacles find_obstacles(ContactTransfer::Side from, const Conditions& t
       if (found.outside++ == 0) found.first_outside = {p[0], p[1], p[2]};
       continue;
     }
-    for (std::size_t s = 0; s < to.surfaces.size(); ++s) {
+    for (const std::size_t s : overlaps.walls()) {
       if (overlaps.lies_in(p, s))
         note_blocked(found.blocked, to.surfaces[s], from.particles.id(n), p);
     }
@@ -110,7 +102,7 @@ std::vector<std::pair<std::size_t, int>> find_inside_hoods(ContactTransfer::Side
                                                            const Translation& names) {
   std::vector<std::pair<std::size_t, int>> found;
   const NewOverlaps overlaps(from.conditions, to, names);
-  for (std::size_t s = 0; s < to.surfaces.size(); ++s) {
+  for (const std::size_t s : overlaps.walls()) {
     const Surface& surface = to.surfaces[s];
     if (surface.opening < 0 || surface.body == nullptr) continue;
     for (std::size_t n = 0; n < from.particles.size(); ++n) {

@@ -5,18 +5,23 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
 
 namespace dust::particles {
 namespace {
 
-/// Numbers in `to` of the things in `from`, or -1.
-template <class Things, class Same>
-std::vector<std::int32_t> numbers_of(const Things& from, const Things& to, const Same& same) {
+/// Numbers in `to` of the things in `from` by what names them, or -1.
+template <class Things, class Key>
+std::vector<std::int32_t> numbers_of(const Things& from, const Things& to, const Key& key) {
+  std::map<decltype(key(to[0])), std::int32_t> number;
+  for (std::size_t n = 0; n < to.size(); ++n) number.emplace(key(to[n]), n);
   std::vector<std::int32_t> numbers;
   for (const auto& thing : from) {
-    const auto at =
-        std::find_if(to.begin(), to.end(), [&](const auto& other) { return same(thing, other); });
-    numbers.push_back(at == to.end() ? -1 : static_cast<std::int32_t>(at - to.begin()));
+    const auto at = number.find(key(thing));
+    numbers.push_back(at == number.end() ? -1 : at->second);
   }
   return numbers;
 }
@@ -29,20 +34,25 @@ std::vector<std::string> material_names(const Conditions& conditions) {
   return names;
 }
 
-bool is_same_surface(const Surface& a, const Surface& b) {
-  return a.name == b.name && a.part == b.part && (a.body == nullptr) == (b.body == nullptr);
-}
+/// [-] of the radius: feet that differ by less are the same.
+constexpr double k_same_place = 1e-9;
 
-bool is_same_opening(const Opening& a, const Opening& b) {
-  return a.name == b.name && a.side == b.side;
+auto wall_key(const Surface& s) { return std::pair(s.name, s.body != nullptr); }
+
+/// A part is the same one only where its body is cut into as many.
+auto surface_key(const Surface& s) {
+  return std::tuple(wall_key(s), s.part, s.body != nullptr ? s.body->shape->parts() : 1);
 }
 
 }  // namespace
 
 Translation::Translation(const Conditions& from, const Conditions& to)
-    : material_(numbers_of(material_names(from), material_names(to), std::equal_to<>())),
-      surface_(numbers_of(from.surfaces, to.surfaces, is_same_surface)),
-      opening_(numbers_of(from.openings, to.openings, is_same_opening)) {}
+    : material_(numbers_of(material_names(from), material_names(to),
+                           [](const std::string& name) { return name; })),
+      wall_(numbers_of(from.surfaces, to.surfaces, wall_key)),
+      surface_(numbers_of(from.surfaces, to.surfaces, surface_key)),
+      opening_(numbers_of(from.openings, to.openings,
+                          [](const Opening& o) { return std::pair(o.name, o.side); })) {}
 
 bool ContactTransfer::is_fine(std::int32_t row) const {
   return 2.0 * to_.particles.radius(static_cast<std::size_t>(row)) <
@@ -75,8 +85,13 @@ ContactList ContactTransfer::translated(const ContactList& list) {
       const std::int32_t surface = is_at_surfaces ? b : -1 - b;
       law = laws.index(material(a),
                        from_.conditions.surfaces[static_cast<std::size_t>(surface)].material);
-      const std::int32_t here = names_.surfaces()[static_cast<std::size_t>(surface)];
-      if (here < 0) continue;
+      if (names_.walls()[static_cast<std::size_t>(surface)] < 0) continue;
+      const std::int32_t here = same_place(static_cast<std::size_t>(a), surface);
+      if (here < 0) {
+        ++contacts_;
+        ++without_past_;
+        continue;
+      }
       b = is_at_surfaces ? here : -1 - here;
     }
     ++contacts_;
@@ -89,6 +104,29 @@ ContactList ContactTransfer::translated(const ContactList& list) {
     result.push(a, b, history.data(), is_fine(a) ? list.touching()[q] : std::uint8_t{1});
   }
   return result;
+}
+
+/// The surface here that the particle touches where it touched that one of the other solver: where
+/// spheres of other sizes come, a body is cut into other parts. -1: none.
+std::int32_t ContactTransfer::same_place(std::size_t row, std::int32_t surface) const {
+  const auto there = static_cast<std::size_t>(surface);
+  if (names_.surfaces()[there] >= 0) return names_.surfaces()[there];
+  const double* p = from_.particles.position(row);
+  const sdk::Vec3 centre{p[0], p[1], p[2]};
+  const auto foot = [&](const Conditions& conditions, std::size_t s) {
+    const bodies::SurfacePoint point =
+        conditions.surfaces[s].contact_at(conditions.time, centre, 2.0 * p[3]);
+    return point.distance * point.normal;
+  };
+  const sdk::Vec3 before = foot(from_.conditions, there);
+  const auto first = static_cast<std::size_t>(names_.walls()[there]);
+  const auto parts = static_cast<std::size_t>(to_.conditions.surfaces[first].body->shape->parts());
+  for (std::size_t s = first; s < first + parts; ++s) {
+    if (norm(foot(to_.conditions, s) - before) <= k_same_place * p[3]) {
+      return static_cast<std::int32_t>(s);
+    }
+  }
+  return -1;
 }
 
 bool ContactTransfer::translate(std::int32_t number, const double* history, double* into) const {

@@ -19,11 +19,14 @@ class Translation {
   Translation(const Conditions& from, const Conditions& to);
   /// -1: there is none.
   [[nodiscard]] std::span<const std::int32_t> materials() const { return material_; }
+  /// First part of the wall that each surface belongs to.
+  [[nodiscard]] std::span<const std::int32_t> walls() const { return wall_; }
+  /// -1, too, where the wall is cut into other parts.
   [[nodiscard]] std::span<const std::int32_t> surfaces() const { return surface_; }
   [[nodiscard]] std::span<const std::int32_t> openings() const { return opening_; }
 
  private:
-  std::vector<std::int32_t> material_, surface_, opening_;  ///< by the other's number
+  std::vector<std::int32_t> material_, wall_, surface_, opening_;  ///< by the other's number
 };
 
 /// The contacts of another solver on their way into ours. Particles keep their rows.
@@ -44,6 +47,7 @@ class ContactTransfer {
 
  private:
   [[nodiscard]] bool is_fine(std::int32_t row) const;
+  [[nodiscard]] std::int32_t same_place(std::size_t row, std::int32_t surface) const;
   /// Whether side i of a pair is the one that it is here.
   [[nodiscard]] bool is_in_order(std::int32_t i, std::int32_t j) const;
   /// False where a part begins anew.

@@ -46,7 +46,7 @@ class SideModelSet {
   SideModels models_{};
 };
 
-/// The faces of one side as the fluid has them, without bodies and grains.
+/// The faces of one side as the fluid has them, without bodies and grains: x before y before z.
 class SideFaces {
  public:
   SideFaces(const scenario::Setup& setup, std::size_t side);
@@ -81,6 +81,13 @@ class SideFaces {
   [[nodiscard]] bool is_passed() const {
     const auto& normal = velocity_[sdk::axis_of(batch_.normal)];
     return std::any_of(normal.begin(), normal.end(), [](double v) { return v != 0.0; });
+  }
+  /// Notes the faces that a model let fluid pass.
+  void note_passed(std::vector<bool>& passed) const {
+    const auto& normal = velocity_[sdk::axis_of(batch_.normal)];
+    for (std::size_t n = 0; n < normal.size(); ++n) {
+      if (normal[n] != 0.0) passed[n] = true;
+    }
   }
   [[nodiscard]] bool is_passed_everywhere() const {
     const auto& normal = velocity_[sdk::axis_of(batch_.normal)];

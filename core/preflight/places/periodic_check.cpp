@@ -2,7 +2,7 @@
 #include "preflight/places/periodic_check.hpp"
 
 #include "base/text.hpp"
-#include "bodies/survey/bounds.hpp"
+#include "bodies/survey/bounds_of.hpp"
 #include "fluid/grid.hpp"
 
 #include <algorithm>

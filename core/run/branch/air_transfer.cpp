@@ -86,7 +86,8 @@ void transfer_fluid(const Comparison& both, const Simulation::Owners& to, bool i
   if (has_grains) fluid.start(to.particles.rows());
 }
 
-void transfer_dust(const Comparison& both, const Simulation::Owners& to, const Warn& warn) {
+void transfer_dust(const Comparison& both, const Simulation::Owners& to, bool is_same_world,
+                   const Warn& warn) {
   const io::StoredState& state = both.origin().state();
   if (!keeps_dust(both)) {
     to.dust->start();
@@ -108,6 +109,7 @@ void transfer_dust(const Comparison& both, const Simulation::Owners& to, const W
                    part.second(changed);
                  }}});
   }
+  if (!is_same_world) to.dust->adapt_to_bodies();
 }
 
 }  // namespace dust::run

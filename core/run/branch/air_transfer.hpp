@@ -20,7 +20,8 @@ void report_what_air_drops(const Comparison& both, bool is_same_world, const War
 /// where both are coupled as before.
 void transfer_fluid(const Comparison& both, const Simulation::Owners& to, bool is_same_world);
 
-/// The dust in the air and on surfaces.
-void transfer_dust(const Comparison& both, const Simulation::Owners& to, const Warn& warn);
+/// The dust in the air and on surfaces. Where a body stands now, it hangs beside that.
+void transfer_dust(const Comparison& both, const Simulation::Owners& to, bool is_same_world,
+                   const Warn& warn);
 
 }  // namespace dust::run

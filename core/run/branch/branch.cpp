@@ -136,7 +136,7 @@ void Branch::transfer(const Simulation::Owners& to) {
   transfer_insertion(to);
   const Warn warn_of = [this](const std::string& text) { warn(text); };
   if (to.fluid != nullptr) transfer_fluid(both_, to, is_same_world_);
-  if (to.dust != nullptr) transfer_dust(both_, to, warn_of);
+  if (to.dust != nullptr) transfer_dust(both_, to, is_same_world_, warn_of);
   if (to.liberation != nullptr) transfer_liberation(to);
   transfer_sensors(to.models);
   // Last, so that the places of the last sample are those saved, not those just published.

@@ -47,8 +47,12 @@ void DustRates::find_parts(const scenario::Setup& setup) {
       add(k_set_free, liberation_->causes()[c],
           [this, c](std::size_t n) { return liberation_->set_free(c, n); });
     }
-  } else {
+  }
+  if (liberation_ == nullptr) {
     add(k_released, "sources", [this](std::size_t n) { return balances_[n].released; });
+  } else if (dust_.field().has_sources()) {
+    add(k_released, "sources",
+        [this](std::size_t n) { return dust_.field().given_by_sources(n, time_); });
   }
   for (std::size_t side = 0; side < 6; ++side) {
     if (!dust_.lets_dust_out(side)) continue;
@@ -105,6 +109,7 @@ void DustRates::sample(double time, double step) {
   const double begin = time - step;
   if (!steady_.holds(time, step)) return;
   for (std::size_t n = 0; n < balances_.size(); ++n) balances_[n] = dust_.field().gone(n);
+  time_ = time;
   find_totals(now_);
   const double since = std::abs(before_time_.value_or(begin) - begin);
   if (since < SteadyWindow::k_rounding * step && steady_.holds(begin, step)) {

@@ -36,7 +36,7 @@ class DustRates {
   /// At the end of a fluid step of `step` [s], at `time` [s].
   void sample(double time, double step);
 
-  /// "observed" [s]; by way (without loads "released", what sources give) the sum of its parts
+  /// "observed" [s]; by way ("released": what sources give) the sum of its parts
   /// ("all"), then each of them, of all classes together and of each: "set_free/hood/rate" [kg/h]
   /// and, where material is released, "set_free/hood/per_load" [g/t];
   /// "left/right/class/10_um/rate".
@@ -66,6 +66,7 @@ class DustRates {
   /// all classes, then each.
   std::vector<double> before_;
   std::vector<double> now_;
+  double time_ = 0.0;  ///< [s] of `now_`
   /// [s] of `before_`; nothing: that of the checkpoint it comes from. A run that starts from
   /// another inherits totals of which it has no earlier ones.
   std::optional<double> before_time_ = 0.0;

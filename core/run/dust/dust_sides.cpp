@@ -23,6 +23,7 @@ DustSides::DustSides(const scenario::Setup& setup, const Models& models, const f
   for (std::size_t side = 0; side < 6; ++side) {
     holds_grains_[side] = setup.domain.sides[side].grains == scenario::GrainSide::wall;
     lets_out_[side] = outlets_[side].empty() && preflight::passes_air(setup, side, sides);
+    if (lets_out_[side]) passed_[side] = preflight::passed_faces(setup, side, sides);
   }
 }
 
@@ -46,9 +47,17 @@ void DustSides::mark_opening(std::int32_t number, const particles::Opening& open
   }
 }
 
+bool DustSides::is_passed(std::size_t side, const std::array<int, 3>& cell) const {
+  if (passed_[side].empty()) return true;
+  // The order of the columns of a side.
+  const std::size_t e = side / 2 == 0 ? 1 : 0;
+  const std::size_t f = side / 2 == 2 ? 1 : 2;
+  return passed_[side][static_cast<std::size_t>(cell[f]) * grid_.count[e] + cell[e]];
+}
+
 bool DustSides::settles_on(std::size_t side, const std::array<int, 3>& cell) const {
   if (holds_grains_[side]) return true;
-  if (outlets_[side].empty()) return !lets_out_[side];
+  if (outlets_[side].empty()) return !lets_out_[side] || !is_passed(side, cell);
   const std::size_t e = (side / 2 + 1) % 3;
   const std::size_t f = (side / 2 + 2) % 3;
   return outlets_[side][static_cast<std::size_t>(cell[f]) * grid_.count[e] + cell[e]] < 0;

@@ -12,9 +12,9 @@
 
 namespace dust::run {
 
-/// What the sides of the domain are to dust, which goes where the air goes: it gets out of those
-/// that the air passes, is drawn out of openings, and settles on what else there is, whether grains
-/// get out there or not.
+/// What the sides of the domain are to dust, which goes where the air goes: it gets out of faces
+/// that the air passes, in or out, is drawn out of openings, and settles on what else there is,
+/// whether grains get out there or not.
 class DustSides {
  public:
   /// `openings`: see openings_of; those of bodies are passed over.
@@ -32,10 +32,12 @@ class DustSides {
 
  private:
   void mark_opening(std::int32_t number, const particles::Opening& opening);
+  [[nodiscard]] bool is_passed(std::size_t side, const std::array<int, 3>& cell) const;
 
   const fluid::Grid& grid_;
   std::array<bool, 6> holds_grains_{};
   std::array<bool, 6> lets_out_{};
+  std::array<std::vector<bool>, 6> passed_;  ///< as preflight::passed_faces
   std::array<std::vector<std::int32_t>, 6> outlets_;
 };
 

@@ -107,6 +107,11 @@ void DustStage::start() {
   field_.start(flow_.volume_after);
 }
 
+void DustStage::adapt_to_bodies() {
+  find_volume(flow_.volume_after);
+  field_.leave_covered_cells(flow_.volume_after);
+}
+
 void DustStage::advance(double time) {
   const Grid& grid = fluid_.grid();
   flow_.volume_before.swap(flow_.volume_after);

@@ -34,6 +34,8 @@ class DustStage {
 
   /// What is there at the start.
   void start();
+  /// A field from another run, among the bodies of this one.
+  void adapt_to_bodies();
   /// Goes with the fluid through the step from `time` [s] on, after the fluid.
   void advance(double time);
   /// Do grains catch dust?

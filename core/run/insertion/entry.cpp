@@ -79,8 +79,8 @@ void check_place(const EntryScene& scene, const InsertionCandidate& e, double al
     }
   }
   for (const particles::Surface& s : scene.surfaces) {
-    if (s.is_removed()) continue;
-    const double overlap = radius - s.contact_at(scene.time, x).distance;
+    if (s.is_removed() || !s.is_first_part()) continue;
+    const double overlap = radius - s.nearest_at(scene.time, x).distance;
     if (overlap <= allowed * radius + rounding(scene)) continue;
     std::ostringstream text;
     text << "overlaps '" << s.name << "' by " << overlap << " m; move it clear"
@@ -95,8 +95,8 @@ bool is_in_moving_body(const EntryScene& scene, Vec3 centre, double radius) {
   const double reach = radius - rounding(scene);
   return std::any_of(scene.surfaces.begin(), scene.surfaces.end(),
                      [&](const particles::Surface& s) {
-                       return s.is_displaced() && !s.is_removed() &&
-                              s.contact_at(scene.time, centre, radius).distance < reach;
+                       return s.is_displaced() && !s.is_removed() && s.is_first_part() &&
+                              s.nearest_at(scene.time, centre).distance < reach;
                      });
 }
 
@@ -247,7 +247,8 @@ bool LazySurroundings::is_free(Vec3 centre, double radius) const {
   }
   const double reach = radius - rounding(scene_);
   for (const particles::Surface& s : scene_.surfaces) {
-    if (!s.is_removed() && s.contact_at(scene_.time, x).distance < reach) return false;
+    if (s.is_removed() || !s.is_first_part()) continue;
+    if (s.nearest_at(scene_.time, x).distance < reach) return false;
   }
   return grid_->overlapping(x, radius, 0.0) == nullptr;
 }

@@ -4,6 +4,7 @@
 #include "scenario/reading/reading.hpp"
 #include "scenario/text/suggest.hpp"
 #include "scenario/text/units.hpp"
+#include "setup/draws_out.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -42,10 +43,7 @@ std::vector<std::string> known_hoods(Reading& reading, const Node& node,
                                      const std::vector<std::string>& hoods) {
   std::vector<std::string> able;
   for (const BodySpec& body : reading.setup.bodies) {
-    if (!body.suction) continue;
-    const auto& factors = body.suction->factors;
-    const double most = factors.empty() ? 1.0 : *std::max_element(factors.begin(), factors.end());
-    if (body.suction->flow * most > 0.0) able.push_back(body.name);
+    if (body.suction && draws_out(*body.suction)) able.push_back(body.name);
   }
   for (const SideOpeningSpec& opening : reading.dust.openings) {
     able.emplace_back(k_side_names[static_cast<std::size_t>(opening.side)]);

@@ -68,6 +68,21 @@ void read_grains(const report::H5Source& source, const report::DustSizes& sizes,
   }
 }
 
+/// [-] Of each cell's volume what gas fills in a frame: concentrations are those of the gas.
+std::vector<double> gas_shares(const report::H5Source& source, const std::string& frame,
+                               const report::FluidGrid& grid) {
+  std::vector<double> shares(cells_of(grid), 1.0);
+  const auto take = [&](const std::vector<float>& part) {
+    for (std::size_t c = 0; c < std::min(shares.size(), part.size()); ++c) {
+      shares[c] *= static_cast<double>(part[c]);
+    }
+  };
+  const auto open = source.floats("/fluid/" + frame + "/open_fraction");
+  take(open.empty() ? source.floats("/fluid/open_fraction") : open);
+  take(source.floats("/fluid/" + frame + "/void_fraction"));
+  return shares;
+}
+
 void read_dust_field(const report::H5Source& source, const report::RunText& run,
                      const report::FluidGrid& grid, std::vector<DustPoint>& dust) {
   const auto frames = source.frames("/fluid");
@@ -76,13 +91,18 @@ void read_dust_field(const report::H5Source& source, const report::RunText& run,
   if (frames.empty()) return;
   const double volume = grid.spacing[0] * grid.spacing[1] * grid.spacing[2];
   const std::size_t first = frames.size() / 2;
+  std::vector<std::vector<double>> shares;
+  for (std::size_t f = first; f < frames.size(); ++f) {
+    shares.push_back(gas_shares(source, frames[f], grid));
+  }
   for (const auto& item : classes.items()) {
     // In the mean: clouds come and go.
     std::vector<double> amounts(cells_of(grid), 0.0);
     for (std::size_t f = first; f < frames.size(); ++f) {
       const auto of_frame = source.floats("/fluid/" + frames[f] + "/dust_" + item.key());
       for (std::size_t c = 0; c < std::min(amounts.size(), of_frame.size()); ++c) {
-        amounts[c] += static_cast<double>(of_frame[c]) / static_cast<double>(frames.size() - first);
+        amounts[c] += static_cast<double>(of_frame[c]) * shares[f - first][c] /
+                      static_cast<double>(frames.size() - first);
       }
     }
     for (std::size_t c = 0; c < amounts.size(); ++c) {

@@ -44,6 +44,24 @@ struct Still {
 
 }  // namespace
 
+TEST_CASE("dust in cells that a body covers shall go to the nearest ones with gas") {
+  Still box({0, 0, 0}, {0.04, 0.04, 0.01}, 0.0, 1.0);
+  DustField field = box.field();
+  const auto cell = [&](int i) { return static_cast<std::int32_t>(box.grid.index(i, 1, 2)); };
+  for (int i = 0; i < 4; ++i) field.release(0, cell(i), 1e-9 * (1 + i));
+  // A body all over, but for two cells; what is left of them goes to the nearer one.
+  box.fill(0.0);
+  for (const int i : {2, 3}) box.flow.volume_after[static_cast<std::size_t>(cell(i))] = 0.5;
+  field.leave_covered_cells(box.flow.volume_after);
+  const double whole = box.grid.cell_volume();
+  const auto held = [&](int i) { return whole * field.mass(0)[static_cast<std::size_t>(cell(i))]; };
+  CHECK(held(0) == 0.0);
+  CHECK(held(1) == 0.0);
+  CHECK(held(2) == test::approx(6e-9));
+  CHECK(held(3) == test::approx(4e-9));
+  CHECK(field.balance(0).airborne == test::approx(1e-8));
+}
+
 TEST_CASE("a source shall need gas while it is active, and neither before nor after") {
   Still box({0, 0, 0}, {0.04, 0.04, 0.01}, 0.01, 0.02);
   DustField field = box.field();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bodies/survey/gap.hpp"
 #include "bodies/mesh/mesh.hpp"
-#include "bodies/survey/bounds.hpp"
+#include "bodies/survey/bounds_of.hpp"
 #include "support/approx.hpp"
 #include "support/dem_rig.hpp"
 #include "unit/bodies/meshes.hpp"
@@ -95,7 +95,7 @@ TEST_CASE("a sheet shall be nearer by half its thickness") {
   const TemporaryFolder folder;
   Corners sheet;
   add_quad(sheet, {-0.3, -0.3, 0}, {0.3, -0.3, 0}, {0.3, 0.3, 0}, {-0.3, 0.3, 0});
-  const std::string file = write_binary_stl(folder.path / "sheet.stl", sheet);
+  const std::string file = write_binary_stl(folder / "sheet.stl", sheet);
   const Body body = body_of(
       "mesh",
       {{"file", file}, {"unit", 1.0}, {"open", std::string("allowed")}, {"thickness", 0.012}});

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -181,23 +183,52 @@ TEST_CASE("hollows of a mesh shall be touched on every side by spheres that are 
   }
 }
 
-TEST_CASE("hollows that would be too many parts shall stay one, and be told") {
-  const TemporaryFolder folder;
+/// So many rings side by side, holes of radius 1 in a plate of 0.5.
+Corners screen_mesh(int holes) {
   const Corners ring = ring_mesh({{{1, -0.5}, {4, -0.5}, {4, 0}, {1, 0}}}, 24);
-  for (const int holes : {20, 30}) {
-    CAPTURE(holes);
-    Corners screen;
-    for (int n = 0; n < holes; ++n) {
-      for (const Vec3& p : ring) screen.push_back(p + Vec3{10.0 * n, 0, 0});
+  Corners screen;
+  for (int n = 0; n < holes; ++n) {
+    for (const Vec3& p : ring) screen.push_back(p + Vec3{10.0 * (n % 8), 10.0 * (n / 8), 0});
+  }
+  return screen;
+}
+
+TEST_CASE("each hole of a screen shall be cut, and a sphere touch one all round") {
+  Mesh screen(screen_mesh(40), Mesh::Sides::one);
+  screen.expect_spheres(1.5);
+  CHECK(screen.parts() == 40 * 25);
+  std::vector<std::int32_t> near;
+  screen.find_within({30, 20, 1.12}, 1.5, near);
+  CHECK(near.size() == 25);
+  CHECK(contacts(screen, {30, 20, 1.12}, 1.51).size() == 24);
+}
+
+TEST_CASE("parts near a point shall be those that are near when each is asked") {
+  for (const auto& [corners, radius] : {std::pair(screen_mesh(24), 1.5),
+                                        {screen_mesh(3), 0.1},
+                                        {corner_mesh(), 0.0},
+                                        {torus_mesh(0.8, 0.3, 17, 9), 0.0}}) {
+    Mesh mesh(corners, Mesh::Sides::one);
+    mesh.expect_spheres(radius);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-3.0, 25.0);
+    std::vector<std::int32_t> near = {-1};
+    std::size_t found = 0;
+    for (int n = 0; n < 300; ++n) {
+      const Vec3 p{place(random), place(random), 0.1 * place(random)};
+      const double reach = 0.3 * (3.0 + place(random));
+      std::vector<std::int32_t> expected;
+      double nearest = k_infinity;
+      for (int part = 0; part < mesh.parts(); ++part) {
+        if (mesh.is_within(part, p, reach)) expected.push_back(part);
+        nearest = std::min(nearest, std::abs(mesh.contact(part, p, k_infinity).distance));
+      }
+      mesh.find_within(p, reach, near);
+      CHECK(near == expected);
+      CHECK(std::abs(mesh.nearest(p).distance) == approx(nearest).epsilon(1e-12));
+      found += near.size();
     }
-    const auto shape = make_shape(
-        "mesh", {{"file", write_text_stl(folder.path / "screen.stl", screen)}, {"unit", 1.0}});
-    const int uncut = shape->parts();
-    shape->expect_spheres(1.5);
-    const bool is_cut = holes * 25 - uncut <= Mesh::k_max_strips;
-    CHECK(is_cut == (holes == 20));
-    CHECK(shape->parts() == (is_cut ? holes * 25 : uncut));
-    CHECK(shape->notes().size() == (is_cut ? 1u : 2u));
+    CHECK(found > 50);
   }
 }
 
@@ -334,8 +365,8 @@ TEST_CASE("a vessel shall be touched on each wall of its corners and once at its
 TEST_CASE("binary and text STL files shall give the same part, in the unit and place asked for") {
   const TemporaryFolder folder;
   const Corners box = box_mesh({0, 0, 0}, {10, 20, 30});
-  const auto binary = write_binary_stl(folder.path / "b.stl", box);
-  const auto text = write_text_stl(folder.path / "t.stl", box);
+  const auto binary = write_binary_stl(folder / "b.stl", box);
+  const auto text = write_text_stl(folder / "t.stl", box);
   for (const std::string& file : {binary, text}) {
     const auto part = make_shape("mesh", {{"file", file},
                                           {"unit", 1e-3},
@@ -357,8 +388,7 @@ TEST_CASE("a mesh that is not fit shall be refused with what is wrong and what t
   const TemporaryFolder folder;
   int number = 0;
   const auto problem = [&](const Corners& corners, std::map<std::string, Value> more = {}) {
-    more["file"] =
-        write_binary_stl(folder.path / ("m" + std::to_string(number++) + ".stl"), corners);
+    more["file"] = write_binary_stl(folder / ("m" + std::to_string(number++) + ".stl"), corners);
     more.emplace("unit", 1e-3);
     try {
       make_shape("mesh", more);
@@ -395,7 +425,7 @@ TEST_CASE("a mesh that is not fit shall be refused with what is wrong and what t
   CHECK(problem(box, {{"thickness", 1e-3}}).find("thickness is for open sheets") == 0);
 
   const auto what = [&](const std::string& content) {
-    const auto file = folder.path / "x.stl";
+    const auto file = folder / "x.stl";
     std::ofstream(file, std::ios::binary) << content;
     try {
       make_shape("mesh", {{"file", file.string()}, {"unit", 1.0}});
@@ -425,7 +455,7 @@ TEST_CASE("doubled and collapsed triangles shall be left out and told") {
   box.insert(box.end(), first.begin(), first.end());
   box.insert(box.end(), {{0, 0, 0}, {0, 0, 0}, {10, 0, 0}});
   const auto part =
-      make_shape("mesh", {{"file", write_binary_stl(folder.path / "m.stl", box)}, {"unit", 1e-3}});
+      make_shape("mesh", {{"file", write_binary_stl(folder / "m.stl", box)}, {"unit", 1e-3}});
   REQUIRE(part->warnings().size() == 2);
   CHECK(part->warnings()[0].find("1 triangles were given twice: left out") != std::string::npos);
   CHECK(part->warnings()[1].find("1 triangles have two corners in one point") != std::string::npos);
@@ -436,7 +466,7 @@ TEST_CASE("a thin sheet shall be touched from both sides, and have a thickness i
   const TemporaryFolder folder;
   Corners sheet;
   dust::test::add_quad(sheet, {0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0});
-  const auto file = write_text_stl(folder.path / "sheet.stl", sheet);
+  const auto file = write_text_stl(folder / "sheet.stl", sheet);
   const auto thin =
       make_shape("mesh", {{"file", file}, {"unit", 1e-3}, {"open", std::string("allowed")}});
   CHECK(thin->nearest({0.005, 0.005, 0.002}).normal == Vec3{0, 0, 1});

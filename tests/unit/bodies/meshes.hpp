@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dust/sdk/vec3.hpp"
+#include "support/engine.hpp"
 
 #include <array>
 #include <cmath>
@@ -139,19 +140,5 @@ inline std::string write_text_stl(const std::filesystem::path& file, const Corne
   out << "endsolid part\n";
   return file.string();
 }
-
-/// A folder that is gone at the end of the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "dust_mesh_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path = name;
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path path;
-};
 
 }  // namespace dust::test

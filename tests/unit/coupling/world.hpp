@@ -185,9 +185,9 @@ struct World {
     }
   }
   void refresh() { refresh({velocity, stress}); }
-  void end_step(double step) {
+  void end_step() {
     if (assembled) evaluate(velocity);
-    coupling->end_step(std::move(evaluated).value(), grains.rows(), step);
+    coupling->end_step(std::move(evaluated).value(), grains.rows());
     evaluated.reset();
   }
 

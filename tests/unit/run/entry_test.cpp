@@ -3,6 +3,8 @@
 
 #include "dust/sdk/error.hpp"
 #include "support/dem_rig.hpp"
+#include "unit/bodies/meshes.hpp"
+#include "verification/walls/wall_rig.hpp"
 
 #include <doctest/doctest.h>
 
@@ -104,19 +106,9 @@ TEST_CASE("a large grain beyond the box of the waiting centres shall be seen") {
 
 TEST_CASE("a grain shall wait while a body that moves stands in its place") {
   // A plate at 1 m/s from x = -2 mm on, 1 mm thick: over the place from 0.8 to 2.2 ms.
-  test::DemRig rig;
-  const int steel = rig.material(7800, 50e6, 0.3);
-  scenario::BodySpec gate;
-  gate.material = steel;
-  gate.shape = {.kind = "shape",
-                .name = "box",
-                .values = {sdk::Vec3{-2e-3, -1e-2, -1e-2}, sdk::Vec3{-1e-3, 1e-2, 1e-2}},
-                .path = {},
-                .where = {}};
-  rig.bodies.push_back(
-      bodies::make_body(rig.setup, gate,
-                        test::ModelLoader::make<sdk::Motion>("motion", "translate",
-                                                             {{"velocity", sdk::Vec3{1, 0, 0}}})));
+  test::WallRig rig(0.5, 0.5, k_diameter);
+  rig.body("box", {{"min", sdk::Vec3{-2e-3, -1e-2, -1e-2}}, {"max", sdk::Vec3{-1e-3, 1e-2, 1e-2}}},
+           test::WallRig::motion("translate", {{"velocity", sdk::Vec3{1, 0, 0}}}));
   auto s = scene();
   s.surfaces = particles::surfaces_of(rig.setup, rig.bodies);
   std::vector<InsertionCandidate> waiting{grain(0.0)};
@@ -125,6 +117,24 @@ TEST_CASE("a grain shall wait while a body that moves stands in its place") {
   s.time = 2.1e-3;
   CHECK(run::take_without_overlap(waiting, {}, s).empty());
   s.time = 2.3e-3;
+  CHECK(run::take_without_overlap(waiting, {}, s).size() == 1);
+}
+
+TEST_CASE("a grain shall wait while a mesh that moves holds its place deep inside") {
+  // As thick as ten grains: no face is within a radius of the centre.
+  const test::TemporaryFolder folder;
+  test::WallRig rig(0.5, 0.5, k_diameter);
+  rig.body("mesh",
+           {{"file", test::write_text_stl(folder / "gate.stl",
+                                          test::box_mesh({-6, -10, -10}, {-2, 10, 10}))},
+            {"unit", 1e-3}},
+           test::WallRig::motion("translate", {{"velocity", sdk::Vec3{1, 0, 0}}}));
+  auto s = scene();
+  s.surfaces = particles::surfaces_of(rig.setup, rig.bodies);
+  std::vector<InsertionCandidate> waiting{grain(0.0)};
+  s.time = 4e-3;
+  CHECK(run::take_without_overlap(waiting, {}, s).empty());
+  s.time = 6.3e-3;
   CHECK(run::take_without_overlap(waiting, {}, s).size() == 1);
 }
 

@@ -85,7 +85,7 @@ void run_held(World& world, int steps) {
     world.refresh();
     if (step == steps) return;
     world.grains.hold(k_step);
-    world.end_step(k_step);
+    world.end_step();
   }
 }
 
@@ -173,7 +173,7 @@ TEST_CASE("a moving bed in a moving stream shall have the pressure drop of its s
     moving.refresh();
     if (step == k_steps_to_steady) break;
     moving.grains.hold(k_step);
-    moving.end_step(k_step);
+    moving.end_step();
   }
   CHECK(pressure_drop(moving) == test::approx(at_rest).epsilon(1e-9));
 }

@@ -43,7 +43,7 @@ TEST_CASE("dust in a Couette layer shall settle and lag the air as tabulated") {
     for (; step < std::lround(row.time / k_step); ++step) {
       world.begin_step(k_step);
       move(world, {0, -9.81 * (1 - test::k_air / test::k_sand), 0});
-      world.end_step(k_step);
+      world.end_step();
     }
     CHECK(world.grains.position[1] == test::approx(row.y).epsilon(1e-3));
     CHECK(world.grains.position[0] == test::approx(row.x).epsilon(1e-3));
@@ -111,7 +111,7 @@ TEST_CASE(
         world.begin_step(k_step);
         push_air(world, {});
         move(world, {});
-        world.end_step(k_step);
+        world.end_step();
         largest =
             std::max(largest, std::abs(world.velocity.component[0][world.grid.index(1, 1, 1)]));
       }
@@ -142,7 +142,7 @@ TEST_CASE("air pushed through held dust shall reach the speed of the balance") {
           world.refresh();
           world.grains.hold(k_step / refreshes);
         }
-        world.end_step(k_step);
+        world.end_step();
       }
       // push = n K u / eps: the drag per grain at that speed balances its part of the push.
       const double u = world.velocity.component[0][world.grid.index(2, 2, 2)];

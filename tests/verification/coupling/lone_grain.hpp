@@ -228,7 +228,7 @@ inline IsolatedGrain::Error IsolatedGrain::error() const {
       force += (grains.impulse[static_cast<std::size_t>(d)] - before) / step;
     }
     if (overlaps) evaluate_drag();
-    run.world.end_step(step);
+    run.world.end_step();
     if (3 * n < 2 * steps) continue;
     const double own = grains.velocity[static_cast<std::size_t>(d)];
     double found = 0.0;

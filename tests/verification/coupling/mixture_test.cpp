@@ -105,7 +105,7 @@ double drop(const std::vector<Size>& sizes, double velocity) {
           world.coupling->exchange().source.component[2][f];
     });
     world.grains.hold(k_step);
-    world.end_step(k_step);
+    world.end_step();
   }
   return sum * world.grid.spacing.z / (choice.cells[0] * choice.cells[1]) / height * k_height;
 }

@@ -69,7 +69,7 @@ struct Cloud {
       world.evaluate(air->drag_velocity());
       hold_air();
     }
-    world.end_step(k_fluid_step);
+    world.end_step();
   }
   void hold_air() {
     world.velocity = world.choice.overlaps ? air->mean_velocity() : air->velocity();

@@ -65,7 +65,7 @@ struct TwoWay {
       world.evaluate(solver->drag_velocity());
       hold_fluid();
     }
-    world.end_step(length);
+    world.end_step();
   }
   /// What the grains see from now on.
   void hold_fluid() {

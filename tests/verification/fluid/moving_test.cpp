@@ -180,6 +180,41 @@ TEST_CASE("what moving bodies take from the fluid shall leave through the sides,
   }
 }
 
+TEST_CASE("what a closing gap still holds shall leave through a periodic side as well") {
+  // A block fills five cells of eight; another one comes down on the last cell before it, whose air
+  // can go through the periodic side alone.
+  Case c;
+  c.max = {0.016, 0.002, 0.016};
+  c.cells = {8, 1, 8};
+  c.fluid.density = 1.2;
+  c.fluid.viscosity = 1.8e-5;
+  c.fluid.pressure_tolerance = 1e-10;
+  for (int s = 2; s < 5; ++s) c.sides[s] = slip();
+  c.sides[5] = open_side(0.0, false);
+  const double h = 2e-3;
+  c.bodies.push_back(body(std::make_unique<TurnedBox>(
+                              Vec3{3.5 * h, h, h}, Vec3{2.5 * h, 5 * h, 2 * h}, Vec3{0, 1, 0}, 0.0),
+                          0.0));
+  c.bodies.push_back(
+      moving(std::make_unique<TurnedBox>(Vec3{0.5 * h, h, 22 * h}, Vec3{0.5 * h, 5 * h, 20 * h},
+                                         Vec3{0, 1, 0}, 0.0),
+             Shift::steady({0, 0, -0.4})));
+  c.start();
+  double volume = open_volume(c);
+  const double start = volume;
+  const double step = 1e-3;
+  for (int n = 0; n < 10; ++n) {
+    c.advance(step);
+    const double now = open_volume(c);
+    double out = 0.0;
+    for (int i = 1; i < 8; ++i) out += c.u(2, i, 0, 8) * c.grid.spacing.x * c.grid.spacing.y;
+    CHECK(out * step == test::approx(volume - now).epsilon(1e-6).scale(1e-9));
+    volume = now;
+  }
+  CHECK(start - volume ==
+        test::approx(2.0 * h * h * h).epsilon(1e-6));  // the cell at the floor is shut
+}
+
 namespace {
 
 /// A cylinder carried along by the stream: the stream does not notice. Returns the largest and the

@@ -80,7 +80,7 @@ struct Cloud {
       world.refresh({liquid->velocity(), liquid->stress_divergence(), &liquid->mean_pressure()});
       world.grains.move(k_step / refreshes, {});
     }
-    world.end_step(k_step);
+    world.end_step();
   }
   [[nodiscard]] sdk::Vec3 momentum() {
     sdk::Vec3 sum;

@@ -67,7 +67,7 @@ struct Still {
       world.grains.move(held, dem_gravity);
       time += held;
     }
-    world.end_step(world.choice.fluid_step);
+    world.end_step();
   }
 
   World world;

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "unit/bodies/meshes.hpp"
+#include "particles/surface_search.hpp"
 #include "support/approx.hpp"
 #include "verification/walls/wall_rig.hpp"
 
 #include <doctest/doctest.h>
+
+#include <cstdint>
+#include <random>
+#include <vector>
 
 using dust::test::approx;
 using namespace dust::test;
@@ -32,7 +37,7 @@ struct Floor : SingleGrain {
 /// Squares of 1.6 mm, half a grain's size and not commensurate with its path, as a text file: the
 /// binary one rounds corners to floats, the plane z = 0 it keeps.
 std::string floor_mesh(const TemporaryFolder& folder) {
-  return write_text_stl(folder.path / "floor.stl", box_mesh({-40, -40, -10}, {40, 40, 0}, 50));
+  return write_text_stl(folder / "floor.stl", box_mesh({-40, -40, -10}, {40, 40, 0}, 50));
 }
 
 }  // namespace
@@ -143,7 +148,7 @@ TEST_CASE("a grain shall rest in a corner with a fillet narrower than itself as 
     SingleGrain single(0.02, 0.3, 0.4, k_diameter);
     single.rig.setup.gravity = {-4, 0, -8};
     single.rig.body("mesh",
-                    {{"file", write_text_stl(folder.path / "corner.stl", corner)}, {"unit", 1e-3}});
+                    {{"file", write_text_stl(folder / "corner.stl", corner)}, {"unit", 1e-3}});
     single.begin({.position = {1.4e-3, 0, 1.2e-3}, .rotation = {0, 3, 0}});
     single.until(0.2);
     CHECK(single.dem->report().contacts == 2);
@@ -166,7 +171,7 @@ TEST_CASE("a sphere shall slide down a funnel of triangles as down the exact one
     SingleGrain single(0.05, 0.2, 0.0, k_diameter);
     WallRig& rig = single.rig;
     if (is_mesh) {
-      rig.body("mesh", {{"file", write_text_stl(folder.path / "f.stl", c)}, {"unit", 1e-3}});
+      rig.body("mesh", {{"file", write_text_stl(folder / "f.stl", c)}, {"unit", 1e-3}});
     } else {
       // The inner face of the mesh; thickness across the wall: 1 mm wide along the end.
       rig.body("frustum", {{"base", Vec3{}},
@@ -186,4 +191,39 @@ TEST_CASE("a sphere shall slide down a funnel of triangles as down the exact one
   CHECK(exact.velocity.z < -0.2);
   CHECK(norm(exact.position - mesh.position) < 1e-4);
   CHECK(norm(exact.velocity - mesh.velocity) < 0.05 * norm(exact.velocity));
+}
+
+TEST_CASE("the surfaces that a sphere may touch shall be those that say so one by one") {
+  const TemporaryFolder folder;
+  WallRig rig(0.5, 0.5, k_diameter);
+  rig.setup.domain.sides[0].grains = dust::scenario::GrainSide::wall;
+  Corners pegs;
+  for (int n = 0; n < 30; ++n) {
+    const Vec3 corner{6.0 * (n % 6), 6.0 * (n / 6), 0};
+    const Corners peg = box_mesh(corner, corner + Vec3{3, 3, 5});
+    pegs.insert(pegs.end(), peg.begin(), peg.end());
+  }
+  rig.body("plane", {{"point", Vec3{}}, {"normal", Vec3{0, 0, 1}}});
+  rig.body("mesh", {{"file", write_text_stl(folder / "pegs.stl", pegs)}, {"unit", 1e-3}},
+           WallRig::motion("translate", {{"velocity", Vec3{0.1, 0, 0}}}));
+  rig.body("plane", {{"point", Vec3{0, 0, 0.02}}, {"normal", Vec3{0, 0, -1}}});
+  auto surfaces = dust::particles::surfaces_of(rig.setup, rig.bodies);
+  REQUIRE(surfaces.size() == 33);
+  dust::particles::move_to(0.02, surfaces);
+  dust::particles::SurfaceSearch search;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-0.01, 0.05);
+  std::size_t found = 0;
+  for (int n = 0; n < 500; ++n) {
+    const Vec3 p{place(random), place(random), 0.5 * place(random)};
+    const double reach = 0.2 * (0.01 + place(random));
+    std::vector<std::int32_t> expected;
+    for (std::size_t s = 0; s < surfaces.size(); ++s) {
+      if (surfaces[s].may_touch(p, reach, 0.01)) expected.push_back(static_cast<std::int32_t>(s));
+    }
+    const auto near = search.may_touch(surfaces, p, reach, 0.01);
+    CHECK(std::vector<std::int32_t>(near.begin(), near.end()) == expected);
+    found += near.size();
+  }
+  CHECK(found > 500);
 }

@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -72,8 +74,7 @@ struct Hole : SingleGrain {
         section.push_back({r, 0});
       }
       const Corners plate = ring_mesh(section, faces_of(shape));
-      rig.body("mesh",
-               {{"file", write_text_stl(folder.path / "plate.stl", plate)}, {"unit", 1e-3}});
+      rig.body("mesh", {{"file", write_text_stl(folder / "plate.stl", plate)}, {"unit", 1e-3}});
     }
     begin(grain);
   }
@@ -164,4 +165,38 @@ TEST_CASE("a grain that rolls across a hole narrower than itself shall neither g
     CHECK(std::abs(b.relative_error()) < 2e-3);
     CHECK(norm(hole.now().velocity) < k_speed);
   }
+}
+
+TEST_CASE("a grain that rests on a slope shall keep its springs where larger ones cut its plate") {
+  const TemporaryFolder folder;
+  const std::string plate =
+      write_text_stl(folder / "plate.stl", ring_mesh({{{5, -1}, {20, -1}, {20, 0}, {5, 0}}}, 4));
+  const auto on_plate = [&](SingleGrain& on, double largest) {
+    on.rig.setup.gravity = {1.0, 0, -9.81};
+    on.rig.body("mesh", {{"file", plate}, {"unit", 1e-3}});
+    on.rig.diameters = {2e-3, largest};
+  };
+  SingleGrain small(0.05, 0.1, 0.5, 2e-3, 0.5);
+  on_plate(small, 3e-3);
+  small.begin(falling({12e-3, 1e-4, 1e-3}));
+  small.until(0.2);
+  REQUIRE(norm(small.now().velocity) < 1e-9);
+  SingleGrain large(0.05, 0.1, 0.5, 2e-3, 0.5);
+  on_plate(large, 12e-3);
+  large.dem = large.rig.make();
+  REQUIRE(large.rig.bodies[0].shape->parts() > small.rig.bodies[0].shape->parts());
+  small.dem->synchronise();
+  const dust::particles::LawTransfer keeps{.law = 0, .keeps_contact = true, .keeps_rolling = true};
+  const auto report = large.dem->transfer_from(*small.dem, 0.2, {&keeps, 1});
+  CHECK(report.contacts == 1);
+  CHECK(report.without_past == 0);
+  const Vec3 rest = small.now().position;
+  large.stepper = std::make_unique<dust::test::Stepper>(*large.dem);
+  double farthest = 0.0;
+  while (large.stepper->time() < 2e-3) {
+    large.stepper->step();
+    farthest = std::max(farthest, norm(large.now().position - rest));
+  }
+  // Without its springs it slips by what they were stretched, some 1e-8 m.
+  CHECK(farthest < 1e-11);
 }

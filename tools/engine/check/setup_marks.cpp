@@ -2,7 +2,7 @@
 #include "check/setup_marks.hpp"
 
 #include "base/text.hpp"
-#include "bodies/survey/bounds.hpp"
+#include "bodies/survey/bounds_of.hpp"
 #include "preflight/emissions.hpp"
 #include "preflight/particle_models.hpp"
 #include "run/summary/summary_models.hpp"

@@ -2,21 +2,9 @@
 #pragma once
 
 #include "bodies/body_set.hpp"
-
-#include <limits>
+#include "bodies/bounds.hpp"
 
 namespace dust::bodies {
-
-/// A box along the axes [m]; empty as it is made.
-struct Bounds {
-  static constexpr double k_far = std::numeric_limits<double>::infinity();
-  sdk::Vec3 low{k_far, k_far, k_far};
-  sdk::Vec3 high{-k_far, -k_far, -k_far};
-
-  [[nodiscard]] bool is_empty() const;
-  /// By `margin` [m] on every side.
-  [[nodiscard]] Bounds grown(double margin) const;
-};
 
 [[nodiscard]] Bounds bounds_of(const Triangles& corners);
 /// Of a body at a placement, as far as a box that is `size` [m] larger on every side than the one

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bodies/survey/bounds.hpp"
+#include "bodies/survey/bounds_of.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,21 +8,9 @@ namespace dust::bodies {
 
 using sdk::Vec3;
 
-bool Bounds::is_empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
-
-Bounds Bounds::grown(double margin) const {
-  const Vec3 m{margin, margin, margin};
-  return {low - m, high + m};
-}
-
 Bounds bounds_of(const Triangles& corners) {
   Bounds box;
-  for (const Vec3& p : corners) {
-    for (int d = 0; d < 3; ++d) {
-      box.low[d] = std::min(box.low[d], p[d]);
-      box.high[d] = std::max(box.high[d], p[d]);
-    }
-  }
+  for (const Vec3& p : corners) include(box, p);
   return box;
 }
 

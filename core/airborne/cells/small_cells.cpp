@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "airborne/small_cells.hpp"
+#include "airborne/cells/small_cells.hpp"
 
 #include <algorithm>
 #include <map>
