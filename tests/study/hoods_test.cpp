@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/run_text.hpp"
+#include "study/hoods/hood_scene.hpp"
+#include "support/approx.hpp"
 #include "support/engine.hpp"
 #include "support/text.hpp"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -40,6 +44,23 @@ std::string refused(const fs::path& folder) {
 }
 
 }  // namespace
+
+TEST_CASE("the dust that places of hoods are ranked by shall be that in the air") {
+  // A cloud among cells that a box cuts: they hold less gas.
+  const TemporaryFolder folder;
+  const auto done =
+      engine({"run", DUST_SOURCE "/tests/scenario/dust_on_box.yaml", "-o", folder / "out",
+              "--quiet", "--set", "dust.field.clouds.cloud.min=[0, 0, 20 mm]", "--set",
+              "dust.field.clouds.cloud.max=[120, 80, 70 mm]", "--set", "time.end=20 ms", "--set",
+              "time.output_every=20 ms", "--set", "frames.turned.angle=20 deg"});
+  INFO(done.err);
+  REQUIRE(done.status == 0);
+  const auto run = dust::report::read_run_text(folder / "out");
+  const dust::study::HoodScene scene(folder / "out", run);
+  const double airborne = run.summary["dust_field"]["classes"]["50_um"]["airborne_kg"];
+  // Frames are of single precision.
+  CHECK(scene.dust_in({0, 0, 0}, {0.12, 0.08, 0.1}) == dust::test::approx(airborne).epsilon(1e-5));
+}
 
 TEST_CASE("a run shall give a study of hoods, and the study what each hood captures") {
   const TemporaryFolder folder;

@@ -188,9 +188,30 @@ TEST_CASE("an opening that lies over an emitter shall be told, with file and lin
 }
 
 TEST_CASE("an emitter that an opening takes everything of shall be refused") {
-  CHECK_THROWS_WITH_AS(warnings({{"emitters.feed.min", "[0.4, 0.05, 0.696 m]"},
-                                 {"emitters.feed.max", "[0.6, 0.15, 0.696 m]"}}),
-                       doctest::Contains("draws out all grains as they come in"), base::UserError);
+  const std::vector<scenario::Override> below = {{"emitters.feed.min", "[0.4, 0.05, 0.696 m]"},
+                                                 {"emitters.feed.max", "[0.6, 0.15, 0.696 m]"}};
+  const auto with_flow = [&](const std::string& suction) {
+    auto set = below;
+    set.push_back({"bodies.hood.suction.flow", suction});
+    set.push_back({"bodies.hood.suction.times", "[0, 1 s]"});
+    return set;
+  };
+  CHECK_THROWS_WITH_AS(warnings(below), doctest::Contains("draws out all grains as they come in"),
+                       base::UserError);
+  // Whichever way the flow is written.
+  auto turned = with_flow("-10 l/s");
+  turned.push_back({"bodies.hood.suction.factors", "[-1, -1]"});
+  CHECK_THROWS_WITH_AS(warnings(turned), doctest::Contains("draws out all grains as they come in"),
+                       base::UserError);
+  auto blown = with_flow("10 l/s");
+  blown.push_back({"bodies.hood.suction.factors", "[-1, -1]"});
+  CHECK_FALSE(has(warnings(blown), "lies over it"));
+  // One that draws at some time is a hood.
+  auto hood = with_flow("-0.1 l/s");
+  hood.erase(hood.begin(), hood.begin() + 2);
+  hood.push_back({"bodies.hood.suction.factors", "[-1, 1]"});
+  hood.push_back({"dust", "{hoods: [hood], finer_than: 1 mm}"});
+  CHECK_FALSE(has(warnings(hood), "extracts nothing"));
 }
 
 TEST_CASE("a hood in a side of the domain shall be looked at as well") {
