@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "fluid/geometry/wrapped.hpp"
 #include "fluid/grid.hpp"
 
 #include <cstddef>
@@ -12,11 +13,8 @@ namespace dust::fluid {
 [[nodiscard]] inline std::ptrdiff_t neighbour(const Grid& grid, std::ptrdiff_t o, int d, int c,
                                               int side) {
   const int n = grid.count[d];
-  int to = c + side;
-  if (to < 0 || to >= n) {
-    if (!grid.is_periodic[d] || n == 1) return -1;
-    to = to < 0 ? n - 1 : 0;
-  }
+  const int to = grid.is_periodic[d] && n > 1 ? wrapped(c + side, n) : c + side;
+  if (to < 0 || to >= n) return -1;
   return o + (to - c) * grid.stride[d];
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "airborne/cells/covered_cells.hpp"
 
+#include "fluid/geometry/wrapped.hpp"
 #include "fluid/neighbour.hpp"
 
 #include <array>
@@ -35,7 +36,7 @@ std::vector<std::int32_t> nearest_gas_cells(const fluid::Grid& grid,
         if (q < 0 || nearest[static_cast<std::size_t>(q)] >= 0) continue;
         nearest[static_cast<std::size_t>(q)] = nearest[static_cast<std::size_t>(from.cell)];
         Reached next{from.at, q};
-        next.at[d] = (from.at[d] + side + grid.count[d]) % grid.count[d];
+        next.at[d] = fluid::wrapped(from.at[d] + side, grid.count[d]);
         reached.push_back(next);
       }
     }

@@ -45,21 +45,24 @@ struct ListScene {
   }
   [[nodiscard]] std::size_t blocks() const { return (particles.size() + k_block - 1) / k_block; }
   /// Whether a particle that goes on for a `duration` [s], and may be found within `reach` [m] of
-  /// where its centre is then, may touch a surface in that time.
+  /// where its centre is then, may touch a surface in that time. The surfaces stand where the step
+  /// before saw them.
   [[nodiscard]] bool may_meet(std::size_t row, const Surface& surface, double reach,
                               double duration) const {
     const double* p = position(row);
-    reach += duration * std::sqrt(speed2(row));
-    // The surfaces stand where the step before saw them.
-    return surface.may_touch({p[0], p[1], p[2]}, reach, duration + step);
+    return surface.may_touch({p[0], p[1], p[2]}, reach + way(row, duration), duration + step);
   }
   /// Numbers of all surfaces of which that is so, ascending.
   [[nodiscard]] std::span<const std::int32_t> find_surfaces(std::size_t row, double reach,
                                                             double duration,
                                                             SurfaceSearch& search) const {
     const double* p = position(row);
-    reach += duration * std::sqrt(speed2(row));
-    return search.may_touch(surfaces, {p[0], p[1], p[2]}, reach, duration + step);
+    return search.may_touch(surfaces, {p[0], p[1], p[2]}, reach + way(row, duration),
+                            duration + step);
+  }
+  /// [m] Of a particle that goes on for a `duration` [s].
+  [[nodiscard]] double way(std::size_t row, double duration) const {
+    return duration * std::sqrt(speed2(row));
   }
   /// Side i of a pair is the fine particle where there is one, else the lower id, so that a history
   /// keeps its sign through all sorts.

@@ -119,12 +119,13 @@ std::int32_t ContactTransfer::same_place(std::size_t row, std::int32_t surface) 
     return point.distance * point.normal;
   };
   const sdk::Vec3 before = foot(from_.conditions, there);
-  const auto first = static_cast<std::size_t>(names_.walls()[there]);
-  const auto parts = static_cast<std::size_t>(to_.conditions.surfaces[first].body->shape->parts());
-  for (std::size_t s = first; s < first + parts; ++s) {
-    if (norm(foot(to_.conditions, s) - before) <= k_same_place * p[3]) {
-      return static_cast<std::int32_t>(s);
-    }
+  const std::int32_t first = names_.walls()[there];
+  std::vector<std::int32_t> parts;
+  to_.conditions.surfaces[static_cast<std::size_t>(first)].find_touchable_parts(centre, 2.0 * p[3],
+                                                                                0.0, parts);
+  for (const std::int32_t part : parts) {
+    const sdk::Vec3 here = foot(to_.conditions, static_cast<std::size_t>(first + part));
+    if (norm(here - before) <= k_same_place * p[3]) return first + part;
   }
   return -1;
 }

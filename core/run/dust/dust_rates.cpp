@@ -48,9 +48,7 @@ void DustRates::find_parts(const scenario::Setup& setup) {
           [this, c](std::size_t n) { return liberation_->set_free(c, n); });
     }
   }
-  if (liberation_ == nullptr) {
-    add(k_released, "sources", [this](std::size_t n) { return balances_[n].released; });
-  } else if (dust_.field().has_sources()) {
+  if (liberation_ == nullptr || dust_.field().has_sources()) {
     add(k_released, "sources",
         [this](std::size_t n) { return dust_.field().given_by_sources(n, time_); });
   }

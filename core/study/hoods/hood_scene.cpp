@@ -91,31 +91,28 @@ void read_dust_field(const report::H5Source& source, const report::RunText& run,
   if (frames.empty()) return;
   const double volume = grid.spacing[0] * grid.spacing[1] * grid.spacing[2];
   const std::size_t first = frames.size() / 2;
-  std::vector<std::vector<double>> shares;
+  // In the mean: clouds come and go.
+  std::vector<double> amounts(cells_of(grid), 0.0);
   for (std::size_t f = first; f < frames.size(); ++f) {
-    shares.push_back(gas_shares(source, frames[f], grid));
-  }
-  for (const auto& item : classes.items()) {
-    // In the mean: clouds come and go.
-    std::vector<double> amounts(cells_of(grid), 0.0);
-    for (std::size_t f = first; f < frames.size(); ++f) {
+    const std::vector<double> shares = gas_shares(source, frames[f], grid);
+    for (const auto& item : classes.items()) {
       const auto of_frame = source.floats("/fluid/" + frames[f] + "/dust_" + item.key());
       for (std::size_t c = 0; c < std::min(amounts.size(), of_frame.size()); ++c) {
-        amounts[c] += static_cast<double>(of_frame[c]) * shares[f - first][c] /
+        amounts[c] += static_cast<double>(of_frame[c]) * shares[c] /
                       static_cast<double>(frames.size() - first);
       }
     }
-    for (std::size_t c = 0; c < amounts.size(); ++c) {
-      if (!(amounts[c] > 0.0)) continue;
-      const std::array<std::size_t, 3> cell{c % grid.count[0], c / grid.count[0] % grid.count[1],
-                                            c / (grid.count[0] * grid.count[1])};
-      sdk::Vec3 centre;
-      for (int d = 0; d < 3; ++d) {
-        const auto n = static_cast<std::size_t>(d);
-        centre[d] = grid.origin[n] + (static_cast<double>(cell[n]) + 0.5) * grid.spacing[n];
-      }
-      dust.push_back({centre, amounts[c] * volume});
+  }
+  for (std::size_t c = 0; c < amounts.size(); ++c) {
+    if (!(amounts[c] > 0.0)) continue;
+    const std::array<std::size_t, 3> cell{c % grid.count[0], c / grid.count[0] % grid.count[1],
+                                          c / (grid.count[0] * grid.count[1])};
+    sdk::Vec3 centre;
+    for (int d = 0; d < 3; ++d) {
+      const auto n = static_cast<std::size_t>(d);
+      centre[d] = grid.origin[n] + (static_cast<double>(cell[n]) + 0.5) * grid.spacing[n];
     }
+    dust.push_back({centre, amounts[c] * volume});
   }
 }
 

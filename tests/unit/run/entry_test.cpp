@@ -37,6 +37,13 @@ run::EntryScene scene() {
   return s;
 }
 
+/// The same among the bodies of a rig.
+run::EntryScene scene_among(const test::DemRig& rig) {
+  run::EntryScene s = scene();
+  s.surfaces = particles::surfaces_of(rig.setup, rig.bodies);
+  return s;
+}
+
 std::string refusal(const run::EntryScene& s, std::vector<InsertionCandidate> waiting,
                     const particles::GrainRows& rows = {}) {
   try {
@@ -109,8 +116,7 @@ TEST_CASE("a grain shall wait while a body that moves stands in its place") {
   test::WallRig rig(0.5, 0.5, k_diameter);
   rig.body("box", {{"min", sdk::Vec3{-2e-3, -1e-2, -1e-2}}, {"max", sdk::Vec3{-1e-3, 1e-2, 1e-2}}},
            test::WallRig::motion("translate", {{"velocity", sdk::Vec3{1, 0, 0}}}));
-  auto s = scene();
-  s.surfaces = particles::surfaces_of(rig.setup, rig.bodies);
+  auto s = scene_among(rig);
   std::vector<InsertionCandidate> waiting{grain(0.0)};
   s.time = 1e-3;
   CHECK(run::take_without_overlap(waiting, {}, s).empty());
@@ -129,8 +135,7 @@ TEST_CASE("a grain shall wait while a mesh that moves holds its place deep insid
                                           test::box_mesh({-6, -10, -10}, {-2, 10, 10}))},
             {"unit", 1e-3}},
            test::WallRig::motion("translate", {{"velocity", sdk::Vec3{1, 0, 0}}}));
-  auto s = scene();
-  s.surfaces = particles::surfaces_of(rig.setup, rig.bodies);
+  auto s = scene_among(rig);
   std::vector<InsertionCandidate> waiting{grain(0.0)};
   s.time = 4e-3;
   CHECK(run::take_without_overlap(waiting, {}, s).empty());

@@ -19,14 +19,19 @@ constexpr double k_pi = std::numbers::pi;
 /// The pressure is solved to 1e-10 of its right side.
 constexpr double k_exact = 1e-6;
 
-/// A duct along z, open at both ends, slippery.
-Case duct(int cells) {
+Case in_air(Vec3 max, std::array<int, 3> cells) {
   Case c;
-  c.max = {0.02, 0.01, 0.04};
-  c.cells = {4, 1, cells};
+  c.max = max;
+  c.cells = cells;
   c.fluid.density = 1.2;
   c.fluid.viscosity = 1.8e-5;
   c.fluid.pressure_tolerance = 1e-10;
+  return c;
+}
+
+/// A duct along z, open at both ends, slippery.
+Case duct(int cells) {
+  Case c = in_air({0.02, 0.01, 0.04}, {4, 1, cells});
   for (int s = 0; s < 4; ++s) c.sides[s] = slip();
   c.sides[4] = open_side(0.0, false);
   c.sides[5] = open_side(0.0, false);
@@ -155,12 +160,7 @@ TEST_CASE("a piston that is speeded up shall feel the mass of the fluid before i
 }
 
 TEST_CASE("what moving bodies take from the fluid shall leave through the sides, to rounding") {
-  Case c;
-  c.max = {0.05, 0.01, 0.05};
-  c.cells = {24, 1, 24};
-  c.fluid.density = 1.2;
-  c.fluid.viscosity = 1.8e-5;
-  c.fluid.pressure_tolerance = 1e-10;
+  Case c = in_air({0.05, 0.01, 0.05}, {24, 1, 24});
   for (int s = 0; s < 6; ++s) c.sides[s] = wall();
   c.sides[2] = slip();
   c.sides[3] = slip();
@@ -183,12 +183,7 @@ TEST_CASE("what moving bodies take from the fluid shall leave through the sides,
 TEST_CASE("what a closing gap still holds shall leave through a periodic side as well") {
   // A block fills five cells of eight; another one comes down on the last cell before it, whose air
   // can go through the periodic side alone.
-  Case c;
-  c.max = {0.016, 0.002, 0.016};
-  c.cells = {8, 1, 8};
-  c.fluid.density = 1.2;
-  c.fluid.viscosity = 1.8e-5;
-  c.fluid.pressure_tolerance = 1e-10;
+  Case c = in_air({0.016, 0.002, 0.016}, {8, 1, 8});
   for (int s = 2; s < 5; ++s) c.sides[s] = slip();
   c.sides[5] = open_side(0.0, false);
   const double h = 2e-3;
